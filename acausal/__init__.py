@@ -4,10 +4,10 @@ Compose a model from connected components; the engine flattens it, reduces its i
 integrates them.
 """
 
-# ruff: noqa: E402 - the rest takes a second to load, and may be interrupted meanwhile
-from acausal.interrupts import heed
+# ruff: noqa: E402 - the other imports take a second, during which the user may interrupt
+from acausal.interrupts import shorten_loading_interrupts
 
-heed()
+shorten_loading_interrupts()
 
 from typing import TYPE_CHECKING, Any
 
@@ -220,7 +220,7 @@ if TYPE_CHECKING:
 
 install()
 
-# What few runs need: loading it takes as long as a small simulation.
+# Loaded on first use: few runs need these modules, and their import takes as long as a small simulation.
 _LATER = {
     **dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export"),
     "animate": "acausal.result.several",

@@ -1,4 +1,4 @@
-"""Errors of acausal: what is wrong in the user's names, where, why, and the remedy."""
+"""Errors and warnings of acausal."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ PACKAGE = str(Path(__file__).parent) + os.sep
 
 
 class AcausalError(Exception):
-    """Base class of every error that acausal raises on purpose.
+    """Base class of all errors that acausal raises.
 
     Parameters
     ----------
     message : str
-        What is wrong, in the user's names; where; the likely cause; the remedy as code.
+        The fault in the user's names, its place, the likely cause, and the remedy as code.
 
     Attributes
     ----------
     line : str
-        File and line of the user's statement, where the message itself does not say it.
+        File and line of the user's statement, where the message does not contain them.
     place : str
-        Component, file and line, once they are known.
+        Component, file and line, as soon as they are known.
     """
 
     line = ""
@@ -36,11 +36,11 @@ class AcausalError(Exception):
 
 
 class DeclarationError(AcausalError):
-    """A component is declared or constructed wrongly (field, value, shape, name)."""
+    """Invalid declaration or construction of a component (field, value, shape or name)."""
 
 
 class ConnectError(AcausalError):
-    """Two ports cannot be connected, or a graph of connections cannot be right."""
+    """Invalid connection of two ports, or an invalid graph of connections."""
 
 
 class UnbalancedModelError(AcausalError):
@@ -48,15 +48,15 @@ class UnbalancedModelError(AcausalError):
 
 
 class StructurallySingularError(AcausalError):
-    """Counts match, but some equations cannot determine the unknowns that they contain."""
+    """The numbers of equations and unknowns match, but some equations cannot determine their unknowns."""
 
 
 class InitializationError(AcausalError):
-    """No consistent initial values: missing, contradictory, or not found."""
+    """Initial values are missing or contradictory, or the solver did not find consistent ones."""
 
 
 class SimulationError(AcausalError):
-    """The integration failed; `result` holds what was computed until then.
+    """The integration failed; `result` holds the part before the failure.
 
     Parameters
     ----------
@@ -68,9 +68,9 @@ class SimulationError(AcausalError):
     Attributes
     ----------
     begun : bool
-        Whether a step was taken.
+        True if at least one step was taken.
     kept : str
-        What `result` is, to begin a sentence.
+        Subject of the sentence that tells where `result` is.
     """
 
     begun = True
@@ -81,18 +81,18 @@ class SimulationError(AcausalError):
         self.result = result
 
     def __str__(self) -> str:
-        return self.said("is in error.result")
+        return self.text("is in error.result")
 
-    def said(self, where: str = "") -> str:
-        """Return the message, and where what was computed is found: "is in error.result"."""
-        text = super().__str__()
+    def text(self, where: str = "") -> str:
+        """Return the message, followed by the place of the partial result: "is in error.result"."""
+        message = super().__str__()
         if not where or self.result is None or not self.begun:
-            return text
-        return f"{text}\n{self.kept} {where}."
+            return message
+        return f"{message}\n{self.kept} {where}."
 
 
 class UnitsError(AcausalError):
-    """The two sides of an equation certainly have different units."""
+    """Units that differ for certain, such as those of the two sides of an equation."""
 
 
 class ExportError(AcausalError):
@@ -100,37 +100,37 @@ class ExportError(AcausalError):
 
 
 class AcausalWarning(UserWarning):
-    """The result solves the equations but may not be what the user wants; or a setting has no effect."""
+    """A doubtful result or model, or a setting without effect."""
 
 
 def user_line() -> str:
     """Return file and line of the innermost statement outside this package."""
     frame = sys._getframe(1)
-    # By the name of the module: generated functions have no file.
+    # Compare module names: generated functions have no file.
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == __package__:
         frame = frame.f_back
     return f"{frame.f_code.co_filename}:{frame.f_lineno}"
 
 
 def line_in(error: BaseException) -> str:
-    """Return file and line of the innermost statement outside this package that an error went through, "" if there is none."""
+    """Return file and line of the innermost frame of a traceback outside this package, "" if there is none."""
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
         if not frame.filename.startswith(PACKAGE) and "/site-packages/" not in frame.filename:
             return f"{frame.filename}:{frame.lineno}"
     return ""
 
 
-# numpy and contextlib decorate some of our functions.
+# Frames to skip: numpy and contextlib decorate functions of this package.
 SKIPPED = (__package__, "numpy", "contextlib")
 
 
 def caution(text: str) -> None:
-    """Warn with the user's line: the innermost one outside this package.
+    """Warn at the user's line, the innermost one outside this package.
 
     Parameters
     ----------
     text : str
-        What is doubtful, in the user's names; where; the remedy.
+        The doubt in the user's names, its place and the remedy.
     """
     level, frame = 2, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in SKIPPED:

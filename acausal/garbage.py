@@ -1,4 +1,4 @@
-"""Python's collector of garbage, held off where many objects are made and none of them is garbage."""
+"""Suspension of Python's garbage collector while many long-lived objects are created."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Hold the collector off in the block: half of the time could go into looking through objects that all stay."""
+    """Disable the garbage collector in a block: traversing live objects could take half of the time."""
     collects = gc.isenabled()
     gc.disable()
     try:

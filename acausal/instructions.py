@@ -1,4 +1,4 @@
-"""The elementary operations of a CasADi function, each with a value of its own."""
+"""Elementary operations of a CasADi function in static single assignment form."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import casadi as ca
 OUTPUT, INPUT, CONSTANT = ca.OP_OUTPUT, ca.OP_INPUT, ca.OP_CONST
 
 
-# Options with which functions that are to be read are made: asking for the slots that results are kept in, which CasADi
-# otherwise uses again, takes a third of the time of reading.
+# Options of functions to be read: without reuse of work slots, each operation has its own slot. Otherwise the query of
+# the output slots would take a third of the reading time.
 READABLE = {"live_variables": False}
 
 
@@ -22,15 +22,15 @@ class Instructions:
     Attributes
     ----------
     op : list of int
-        CasADi's number of each operation.
+        CasADi's operation code of each operation.
     arguments : list of sequences of int
-        Operations whose values each one takes.
+        Operands of each operation.
     constant : dict of int to float
         Value of each constant.
     place : dict of int to tuple of int
-        Argument of the function and nonzero in it, of each input.
+        (argument, nonzero) of each input operation.
     results : list of list of int
-        Operations that give the nonzeros of each result.
+        Operations that compute the nonzeros of each result.
     """
 
     op: list[int]
@@ -46,14 +46,14 @@ def read_instructions(function: ca.Function) -> Instructions:
     Parameters
     ----------
     function : casadi.Function
-        Made from SX, best with the options `READABLE`.
+        Function of SX, preferably created with the options `READABLE`.
     """
     every = range(function.n_instructions())
     ids = list(map(function.instruction_id, every))
     inputs: list[Sequence[int]] = list(map(function.instruction_input, every))
     nodes = [k for k in every if ids[k] != OUTPUT]
     if function.sz_w() < len(nodes):
-        inputs = _unslotted(function, ids, inputs)
+        inputs = _operands(function, ids, inputs)
     op, arguments = [ids[k] for k in nodes], [inputs[k] for k in nodes]
     place = {node: (some[0], some[1]) for node, (o, some) in enumerate(zip(op, arguments, strict=True)) if o == INPUT}
     constant = {node: function.instruction_constant(nodes[node]) for node, o in enumerate(op) if o == CONSTANT}
@@ -66,8 +66,8 @@ def read_instructions(function: ca.Function) -> Instructions:
     return Instructions(op, arguments, constant, place, results)
 
 
-def _unslotted(function: ca.Function, ids: list[int], inputs: list[Sequence[int]]) -> list[Sequence[int]]:
-    """Return the operations that each instruction takes, in place of the slots in which their values are kept meanwhile."""
+def _operands(function: ca.Function, ids: list[int], inputs: list[Sequence[int]]) -> list[Sequence[int]]:
+    """Return the operands of each instruction as operations instead of work slots."""
     node, slot, found = 0, dict[int, int](), list[Sequence[int]]()
     for k, (op, given) in enumerate(zip(ids, inputs, strict=True)):
         found.append(given if op == INPUT else [slot[i] for i in given])

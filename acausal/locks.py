@@ -1,4 +1,4 @@
-"""One thread at a time: what models share in a process is not thread-safe."""
+"""Lock of the process: models share state that is not thread-safe."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from acausal.signals import Signals
 P = ParamSpec("P")
 R = TypeVar("R")
 
-# Of the whole process, not of a model: a call binds memory of its own model, but also takes the standard error stream.
+# One lock for the process, not for each model: calls also redirect the standard error stream.
 LOCK = RLock()
 
 
 class _Thread(local):
-    """How many entries a thread is in, of which one called the next."""
+    """Nesting depth of exclusive calls in a thread."""
 
     depth = 0
 
@@ -26,23 +26,23 @@ class _Thread(local):
 _THREAD = _Thread()
 
 
-def _alone_in_child() -> None:
+def _reset_in_child() -> None:
     Signals.forget()
     LOCK.release()
 
 
 if hasattr(os, "register_at_fork"):
-    # A child has no other threads: one that held the lock would hold it forever there.
-    os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=_alone_in_child)
+    # After a fork only the forking thread exists in the child: a lock held by another thread would never be released.
+    os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=_reset_in_child)
 
 
-def alone(function: Callable[P, R]) -> Callable[P, R]:
-    """Let one thread at a time into all functions marked so, and no interrupt be lost in them; they may call each other.
+def exclusive(function: Callable[P, R]) -> Callable[P, R]:
+    """Decorate a function to run in one thread at a time, without losing interrupts; decorated functions may nest.
 
     Parameters
     ----------
     function : callable
-        An entry of the package that compiles, runs or evaluates.
+        Public function that compiles, runs or evaluates models.
     """
 
     @wraps(function)
@@ -57,11 +57,11 @@ def alone(function: Callable[P, R]) -> Callable[P, R]:
     return call
 
 
-def apart(function: Callable[[], R]) -> R:
-    """Call what shares nothing with other threads, which may enter meanwhile; interrupts wait, see `Signals.waiting`.
+def unlocked(function: Callable[[], R]) -> R:
+    """Call a function that shares no state while the lock is released; interrupts are deferred, see `Signals.waiting`.
 
-    An entry that another one called lets none in: its caller may be amid an evaluation, or have changed what is of the whole
-    process.
+    In a nested exclusive call the lock stays held: the outer call may be in the middle of an evaluation, or have
+    changed state of the process.
     """
     with Signals.waiting():
         if _THREAD.depth != 1:

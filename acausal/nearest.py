@@ -1,4 +1,4 @@
-"""Names that may have been meant by one that does not exist."""
+"""Suggestions for unknown names: existing names that resemble them."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import difflib
 import re
 from collections.abc import Iterable, Sequence
 
-LONG = 200  # characters of a path
-MOST = 12
-NEAR = 0.6  # similarity of two names that differ by a slip
-SLIP = 0.85  # similarity of two names of which one is the other misspelt
-PIECE, WORD = 3, 4  # letters of a name inside another one, and of a word that two names share: shorter ones are chance
+LONG = 200  # length of a path, in characters, beyond which similarity is not computed: its cost is quadratic
+MOST = 12  # members of a part listed in a message
+NEAR = 0.6  # least similarity ratio (difflib) of a suggested name
+SLIP = 0.85  # least similarity ratio of a misspelling, which precedes other suggestions
+PIECE, WORD = 3, 4  # fewest letters of a contained name and of a shared word: shorter matches are accidental
 
 
 def nearest(path: str, known: Sequence[str]) -> list[str]:
-    """Return up to three names that may have been meant by a path, the likeliest first."""
+    """Return up to three existing names that a path may stand for, the likeliest first."""
     near = [name for name in known if name.endswith(f".{path}") or path in (f"self.{name}", f"model.{name}")]
     near += [name for name in known if name.casefold() == path.casefold() and name not in near]
     alike = [name for name in known if _is_near(path, name)]
@@ -25,19 +25,19 @@ def nearest(path: str, known: Sequence[str]) -> list[str]:
     return near[:3]
 
 
-def likeliest(name: str, known: Iterable[str], share: float = NEAR) -> str:
-    """Return the name that was probably meant by one that does not exist, "" if none resembles it.
+def most_similar(name: str, known: Iterable[str], share: float = NEAR) -> str:
+    """Return the existing name that resembles an unknown one most, "" if none does.
 
-    Slips of spelling come first, then names that have a word in common with it, then others.
+    Misspellings come first, then names with a common word, then other similar names.
 
     Parameters
     ----------
     name : str
-        What does not exist.
+        The unknown name.
     known : iterable of str
-        Names that do.
+        Existing names.
     share : float
-        How much of the letters others have in common with it, from 0 to 1.
+        Least similarity ratio of other names, from 0 to 1.
     """
     known = list(known)
     slip, other = (difflib.get_close_matches(name, known, 1, least) for least in (SLIP, share))
@@ -45,7 +45,7 @@ def likeliest(name: str, known: Iterable[str], share: float = NEAR) -> str:
 
 
 def _related(name: str, known: Iterable[str]) -> list[str]:
-    """Return names that contain another one, then those inside it, then those that share words with it; the nearest first."""
+    """Return names that contain `name`, names inside it and names with common words, in this order."""
     own, plain = _words(name), _plain(name)
     found = []
     for k in known:
@@ -65,17 +65,17 @@ def _words(name: str) -> set[str]:
     return set(_plain(name).split("_"))
 
 
-def missing(path: str, known: Sequence[str], kind: str = "") -> str:
-    """Return what follows "there is no `...` in the model": names that may be meant, or those of the same part.
+def suggestions(path: str, known: Sequence[str], kind: str = "") -> str:
+    """Return the end of the message "there is no `...` in the model": similar names, or the members of the same part.
 
     Parameters
     ----------
     path : str
-        What does not exist.
+        The unknown path.
     known : sequence of str
-        Paths that do.
+        Existing paths.
     kind : str
-        Class of the part in which it was looked for, "" if it is not known.
+        Class of the part that should contain it, "" if unknown.
     """
     near = nearest(path, known)
     if near:
@@ -89,14 +89,14 @@ def missing(path: str, known: Sequence[str], kind: str = "") -> str:
 
 
 def _members(part: str, known: Iterable[str]) -> list[str]:
-    """Names of what a part itself has, without indices."""
+    """Return the names of the direct members of a part, without indices."""
     start = f"{part}." if part else ""
     rest = (name[len(start) :] for name in known if name.startswith(start))
     return list(dict.fromkeys(name.partition("[")[0] for name in rest if "." not in name))
 
 
 def _is_near(path: str, name: str) -> bool:
-    """Whether a path is a name with a slip in one of its parts or several."""
+    """Return whether a path is a misspelling of another one."""
     if len(path) > LONG:
         return False
     mine, other = path.split("."), name.split(".")

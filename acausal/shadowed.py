@@ -1,4 +1,4 @@
-"""Folders and files of the user that hide the packages `components` and `models`."""
+"""Files and folders of the user that shadow the packages `components` and `models`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ NAMES = ("components", "models")
 
 
 def shadowed() -> str:
-    """Name what hides `components` or `models` where Python looks for packages, and the remedy; "" if nothing does."""
+    """Return a message on the file or folder that shadows `components` or `models`, "" if there is none."""
     for name in NAMES:
         own = HOME / name / "__init__.py"
         found = _file(name)
@@ -19,14 +19,14 @@ def shadowed() -> str:
             path = Path(found)
             what = f"folder {path.parent}" if path.name == "__init__.py" else f"file {path}"
             return (
-                f"the {what} hides the package `{name}` of acausal, so that what is imported from `{name}` comes from there. "
+                f"the {what} hides the package `{name}` of acausal, so that imports from `{name}` read your file. "
                 "Rename it, or start Python in another folder."
             )
     return ""
 
 
 def _file(name: str) -> str:
-    """The file of a module that is loaded, or would be."""
+    """Return the file of a module, loaded or not; "" if there is none."""
     if name in sys.modules:
         return getattr(sys.modules[name], "__file__", None) or ""
     try:

@@ -1,4 +1,4 @@
-"""Interrupts that come while foreign code runs, which swallows what a handler raises or takes it for its own failure."""
+"""Interrupts during calls of external libraries, which swallow the exceptions of signal handlers."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ WATCHED = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGALRM") if
 
 
 class Signals:
-    """Raises at the end of the block what a handler raised inside it, whatever became of that meanwhile.
+    """Block at whose end an exception raised by a signal handler inside it is raised again.
 
-    Solvers report it as a failure of theirs, and CasADi passes over it where it converts arguments. Blocks may be nested.
+    Solvers report such an exception as their own failure, and CasADi ignores it while it converts arguments. Blocks may
+    be nested.
     """
 
     _open: ClassVar[list[Signals]] = []
@@ -25,11 +26,11 @@ class Signals:
     def __init__(self) -> None:
         self._before: dict[int, Any] = {}
         self._caught: BaseException | None = None
-        self._lost: BaseException | None = None  # the same, until it is known to be heard
+        self._lost: BaseException | None = None  # the same, until `heard` acknowledges it
 
     def __enter__(self) -> Signals:
         try:
-            # Only the main thread runs handlers, and may set them.
+            # Only the main thread runs signal handlers and may set them.
             if current_thread() is main_thread():
                 self._open.append(self)
                 for number in WATCHED:
@@ -38,7 +39,7 @@ class Signals:
                         self._before[number] = handler
                         signal.signal(number, self._handle)
             return self
-        except BaseException:  # interrupted here, where no end of the block follows
+        except BaseException:  # an interrupt here: __exit__ will not run
             self._close()
             raise
 
@@ -65,9 +66,9 @@ class Signals:
 
     @classmethod
     def raise_lost(cls) -> None:
-        """Raise what a handler raised since the outermost block began: for use before work that takes long.
+        """Raise the exception of a handler that was lost since the outermost block began; call it before long work.
 
-        What is being handled is not lost, nor what was `heard`.
+        An exception that is being handled, or that `heard` acknowledged, is not lost.
         """
         for block in cls._own():
             if block._lost is not None and not _is_handled(block._lost):
@@ -75,18 +76,18 @@ class Signals:
 
     @classmethod
     def heard(cls) -> None:
-        """Count nothing that a handler raised so far as lost: for who caught it and works on; blocks end with it all the same."""
+        """Acknowledge past exceptions of handlers, which the caller caught; blocks still end with them."""
         for block in cls._own():
             block._lost = None
 
     @classmethod
     def _own(cls) -> list[Signals]:
-        """Open blocks of this thread."""
+        """Return the open blocks of this thread."""
         return cls._open if current_thread() is main_thread() else []
 
     @classmethod
     def forget(cls) -> None:
-        """Close what the main thread had open where another thread went on as a process of its own."""
+        """Close the blocks of the former main thread in a forked child."""
         if cls._wait:
             cls._wait = False
             cls._open[0]._close()
@@ -94,7 +95,7 @@ class Signals:
     @classmethod
     @contextmanager
     def waiting(cls) -> Iterator[None]:
-        """Raise at the end of this block, or where `raise_lost` is called in it, what handlers raise within open blocks."""
+        """Defer exceptions of handlers to the end of this block, or to a call of `raise_lost` in it."""
         if current_thread() is not main_thread() or cls._wait or not cls._open:
             yield
             return
@@ -107,7 +108,7 @@ class Signals:
 
 
 def _is_handled(error: BaseException) -> bool:
-    """Whether an exception is being handled here, or led to one that is."""
+    """Return whether an exception is being handled, or is the context of one that is."""
     handled = sys.exc_info()[1]
     while handled is not None and handled is not error:
         handled = handled.__context__

@@ -1,7 +1,7 @@
 """Entries and columns of CasADi matrices.
 
-CasADi tries the types of all arguments on each call of one of its functions, for ten times as long as the work takes;
-what leaves a matrix as it is, and sums, products and quotients of matrices, do without.
+CasADi's overload resolution on each call takes ten times as long as the operation itself; the functions here avoid it
+for matrices that stay unchanged and for sums, products and quotients.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ def scalars(matrix: ca.SX) -> list[Any]:
 
 
 def stacked(entries: Iterable[Any]) -> ca.SX:
-    """Stack columns; of nothing an empty column of symbols, where CasADi gives numbers."""
+    """Return the stacked columns; for none an empty SX column, where CasADi returns numbers."""
     return ca.vertcat(ca.SX(0, 1), *entries)
 
 
 def picked(column: ca.SX, places: list[int]) -> ca.SX:
-    """Return entries of a column; of no places an empty column of symbols."""
+    """Return entries of a column; for no places an empty SX column."""
     return column[places] if places else ca.SX(0, 1)
 
 
@@ -41,18 +41,18 @@ def dense(matrix: ca.SX) -> ca.SX:
 
 
 def combined(left: ca.SX, operation: str, right: ca.SX) -> ca.SX:
-    """Return what left + right gives, or another operation on entries."""
+    """Return left + right, or the result of another entrywise operation."""
     return ca.SX.binary(OPERATIONS[operation], left, right)
 
 
 class Distinct:
     """Distinct scalar expressions, numbered in the order of their first appearance.
 
-    Equality is that of `casadi.is_equal`, which compares two expressions; a key made of their outer operations tells which
-    ones are worth comparing, so that n expressions take n comparisons, not n^2.
+    Equality is that of `casadi.is_equal`; only expressions with equal hash keys of their outer operations are compared,
+    so that n expressions take n comparisons, not n^2.
     """
 
-    # Operations that `casadi.is_equal` compares, and those of the key: time - 0.1 and time - 0.2 differ in the first.
+    # Depth, in operations, of the comparison and of the key: time - 0.1 and time - 0.2 differ at depth 1.
     _COMPARED, _KEYED = 9, 3
 
     def __init__(self) -> None:
@@ -60,7 +60,7 @@ class Distinct:
         self._alike = defaultdict[Hashable, list[tuple[int, ca.SX]]](list)
 
     def number(self, expression: ca.SX, kind: str) -> int:
-        """Return the number of an expression of some kind; a new one gets the next number."""
+        """Return the number of an expression of a kind; a new expression gets the next number."""
         alike = self._alike[kind, _key(expression, self._KEYED)]
         for number, known in alike:
             if ca.is_equal(known, expression, self._COMPARED):
@@ -71,7 +71,7 @@ class Distinct:
 
 
 def _key(expression: ca.SX, depth: int) -> Hashable:
-    """Key of the outer operations of a scalar; operands have no order, as `casadi.is_equal` lets them commute."""
+    """Return a key of the outer operations of a scalar; operands are unordered, as in `casadi.is_equal`."""
     if expression.is_constant():
         return float(expression)
     if expression.is_symbolic():

@@ -1,6 +1,6 @@
-"""Uncaught errors of acausal in scripts and notebooks: the user's lines, without those of libraries and chained errors.
+"""Tracebacks of uncaught acausal errors in scripts and notebooks, reduced to the user's lines.
 
-The environment variable ACAUSAL_TRACEBACK=full, or a hook of someone else, shows all of them.
+The environment variable ACAUSAL_TRACEBACK=full, or an exception hook installed by others, keeps full tracebacks.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _LIBRARIES = (
 
 
 def install() -> None:
-    """Show uncaught errors so from now on, unless someone else has a hook already."""
+    """Install the exception hooks, unless others are installed already."""
     if sys.excepthook is sys.__excepthook__:
         sys.excepthook = _show
     shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
@@ -34,13 +34,13 @@ def install() -> None:
         shell.set_custom_exc((AcausalError,), _show_in_notebook)
 
 
-def written(error: BaseException, trace: TracebackType | None) -> str:
-    """Return the traceback of an error with the user's frames alone; with all where there are none.
+def user_traceback(error: BaseException, trace: TracebackType | None) -> str:
+    """Return the traceback of an error with the user's frames only; with all frames if there are none of the user's.
 
     Parameters
     ----------
     error : BaseException
-        What was raised.
+        The exception.
     trace : traceback
         Its traceback.
     """
@@ -52,7 +52,7 @@ def written(error: BaseException, trace: TracebackType | None) -> str:
 
 def _show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if isinstance(error, AcausalError) and os.environ.get(SETTING) != "full":
-        sys.stderr.write(written(error, trace))
+        sys.stderr.write(user_traceback(error, trace))
     else:
         sys.__excepthook__(kind, error, trace)
         if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in NAMES and (hidden := shadowed()):
@@ -65,4 +65,4 @@ def _show_in_notebook(
     if os.environ.get(SETTING) == "full":
         shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
     else:
-        sys.stderr.write(written(error, trace))
+        sys.stderr.write(user_traceback(error, trace))

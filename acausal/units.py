@@ -1,6 +1,6 @@
-"""Units of measure as strings of coherent SI, and the dimensions that they stand for.
+"""Units of coherent SI as strings, and their dimensions.
 
-Only units of scale 1 are accepted: values are always given in SI, and an angle in radians is dimensionless.
+Only units of scale 1 are accepted: values are always in SI, and an angle in radians is dimensionless.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from math import pi, prod
 from typing import ClassVar
 
 from acausal.errors import DeclarationError
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 
 Exponent = int | Fraction
 
@@ -21,7 +21,7 @@ BASES = ("m", "kg", "s", "A", "K", "mol", "cd")
 
 
 class Dimension:
-    """Product of powers of the SI base units; equal dimensions are one object, so that comparing them is free.
+    """Product of powers of the SI base units; interned, so that equal dimensions are one object.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class Dimension:
     _interned: ClassVar[dict[tuple[Exponent, ...], Dimension]] = {}
 
     def __new__(cls, *exponents: Exponent) -> Dimension:
-        """Return the one dimension that has these exponents."""
+        """Return the interned dimension of these exponents."""
         known = cls._interned.get(exponents)
         if known is None:
             if len(exponents) != len(BASES):
@@ -48,7 +48,7 @@ class Dimension:
         raise AttributeError(f"a Dimension is immutable: cannot set {name}")
 
     def __reduce__(self) -> tuple[type[Dimension], tuple[Exponent, ...]]:
-        # A copy or an unpickled dimension must be the interned one.
+        # Copies and unpickled dimensions must be interned as well.
         return Dimension, self.exponents
 
     def __mul__(self, other: Dimension) -> Dimension:
@@ -83,7 +83,7 @@ def _power(base: Dimension, power: Exponent) -> Dimension:
 
 
 def _base_text(dimension: Dimension) -> str:
-    """Write a dimension in base units, as kg.m2/s2 or 1/(m.s)."""
+    """Return a dimension in base units, such as kg.m2/s2 or 1/(m.s)."""
 
     def product(sign: int) -> list[str]:
         # Customary order: the mass first.
@@ -131,7 +131,7 @@ _OTHERS = {
 
 @cache
 def parse(text: str) -> Dimension:
-    """Read a unit of coherent SI.
+    """Return the dimension of a unit of coherent SI.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def parse(text: str) -> Dimension:
     Raises
     ------
     DeclarationError
-        If the unit is unknown, not of scale 1, or ambiguous.
+        If the unit is unknown, ambiguous, or not of scale 1.
     """
     dimension = DIMENSIONLESS
     for symbol, power in factors(text):
@@ -156,12 +156,12 @@ def parse(text: str) -> Dimension:
 
 
 def factors(text: str) -> Iterator[tuple[str, Exponent]]:
-    """Return the symbols of a unit with their powers, negative below the slash: rad among them, which has no dimension.
+    """Yield the symbols of a unit, the dimensionless rad included, with their powers: negative after the slash.
 
     Parameters
     ----------
     text : str
-        As `parse` takes it, which refuses the same.
+        Unit as for `parse`, with the same errors.
     """
     if text and text.isspace():
         raise DeclarationError('the unit is blank: write "1" for a pure number.')
@@ -195,7 +195,7 @@ def _factors_of_product(product: str, text: str) -> Iterator[tuple[str, Exponent
 
 
 def in_si(text: str) -> float | None:
-    """Return a number with a unit in SI, as 0.001 for "1 mm"; None if it is none, or of an unknown unit."""
+    """Return the SI value of a number with a unit, such as 0.001 for "1 mm"; None for other texts and unknown units."""
     found = re.fullmatch(r"\s*([-+]?\d+\.?\d*(?:[eE][-+]?\d+)?)\s*([^\W\d].*?)\s*", text)
     if not found:
         return None
@@ -211,7 +211,7 @@ def in_si(text: str) -> float | None:
 
 
 def _scale(symbol: str) -> tuple[str, float] | None:
-    """The SI unit of a single unit of another scale, and that scale; None for what is none."""
+    """Return the SI unit and the scale of a unit that is not coherent SI; None for other symbols."""
     known = _other_scale(symbol)
     if known is None:
         return None
@@ -220,7 +220,7 @@ def _scale(symbol: str) -> tuple[str, float] | None:
 
 
 def _other_scale(symbol: str) -> tuple[str, str] | None:
-    """The SI unit of a single unit of another scale, and that scale as it is written."""
+    """Return the SI unit and the scale, as text, of a unit that is not coherent SI; None for other symbols."""
     if symbol in _OTHERS:
         return _OTHERS[symbol]
     if symbol not in _SYMBOLS and symbol[0] in _PREFIXES and symbol[1:] in (*_SYMBOLS, "g"):
@@ -230,7 +230,7 @@ def _other_scale(symbol: str) -> tuple[str, str] | None:
 
 
 def _unknown(symbol: str, text: str) -> DeclarationError:
-    """Say why a symbol is refused, and which unit to write instead."""
+    """Return the error for an unknown symbol, with the unit to write instead."""
     where = "" if symbol == text else f' (in "{text}")'
     if symbol == "degC":
         return DeclarationError(f'unit "degC"{where} has an offset: give the value in SI, value + 273.15 in "K".')
@@ -244,12 +244,12 @@ def _unknown(symbol: str, text: str) -> DeclarationError:
 
 
 def _nearest(symbol: str) -> str:
-    """Return the known unit that resembles a symbol, such as N.m for Nm or Hz for hz; "" if none does."""
+    """Return the known unit most similar to a symbol, such as N.m for Nm or Hz for hz; "" if there is none."""
     known = "|".join(sorted(_SYMBOLS, key=len, reverse=True))
     if re.fullmatch(f"(?:{known})+", symbol):
         return ".".join(re.findall(known, symbol))
     by_lower = {name.lower(): name for name in _SYMBOLS}
-    return by_lower.get(likeliest(symbol.lower(), by_lower), "")
+    return by_lower.get(most_similar(symbol.lower(), by_lower), "")
 
 
 for _name, _definition in {
@@ -269,6 +269,6 @@ for _name, _definition in {
 }.items():
     _SYMBOLS[_name] = parse(_definition)
 
-# Names for messages. A moment and an energy have the same dimension, and N.m is right for both; Hz would be wrong
-# for an angular velocity.
+# Names in messages. N.m is right for a moment and for an energy, which have one dimension; Hz is left out because it
+# would be wrong for an angular velocity.
 _NAMES = {parse(name): name for name in ("N", "N.m", "Pa", "W", "C", "V", "F", "Ohm", "H", "T", "Wb")}

@@ -91,7 +91,7 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
 
 def said(error: BaseException) -> str:
     """Return the message of an error as the command line says it: what was computed is written, not an attribute."""
-    return error.said("is kept") if isinstance(error, SimulationError) else str(error)
+    return error.text("is kept") if isinstance(error, SimulationError) else str(error)
 
 
 class Terminated(KeyboardInterrupt):

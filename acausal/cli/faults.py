@@ -9,7 +9,7 @@ import traceback
 from pathlib import Path
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 from acausal.shadowed import NAMES, shadowed
 
 _PACKAGES = tuple(str(Path(PACKAGE).parent / name) + os.sep for name in ("acausal", "components"))
@@ -58,7 +58,7 @@ def _not_imported(error: ImportError, text: str) -> str:
     missing = _NOT_THERE.search(text)
     if missing:
         name, module = missing.groups()
-        near = likeliest(name, [n for n in dir(sys.modules.get(module)) if n[:1] != "_"])
+        near = most_similar(name, [n for n in dir(sys.modules.get(module)) if n[:1] != "_"])
         mend = f"; did you mean `{near}`?" if near else "."
         return f"{type(error).__name__}: there is no `{name}` in {module}{mend}"
     if "relative import" in text:

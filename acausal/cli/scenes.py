@@ -14,7 +14,7 @@ from typing import Any, TypeGuard
 from acausal.cli.faults import brief, ended, place_in
 from acausal.errors import DeclarationError
 from acausal.language.component import Component, Model
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 from acausal.result import shown_name
 from acausal.shadowed import shadowed
 
@@ -100,7 +100,7 @@ def _no_scene(name: str, known: list[str]) -> str:
         return f"there is no scene `{shown}`, but a file {path}.py: name its class, as in {path}.py:ClassName."
     if os.path.lexists(path) or os.sep in path or ".py" in path.lower() or ":" in name:
         return f"`{shown}` is neither a scene nor a model in a file of Python; {FORM}"
-    near = likeliest(name.lower().replace("_", "-"), known, 0.5)
+    near = most_similar(name.lower().replace("_", "-"), known, 0.5)
     mend = f"; did you mean `{near}`?" if near else "."
     return f"there is no scene `{shown}`{mend} Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
 

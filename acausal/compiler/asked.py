@@ -10,7 +10,7 @@ from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.path import Path
-from acausal.language.values import shown_or_kind
+from acausal.language.value_checks import shown_or_kind
 
 
 def model_of(given: Any, compiled: bool = False) -> Any:

@@ -18,15 +18,15 @@ from acausal.compiler.zeros import mend_of_zeros
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import flatten
 from acausal.garbage import uncollected
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.reduce import plan_of, reduce
 from acausal.reduce.explain import UNCONNECTED
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 @uncollected()
 def compile(
     model: Component, parameters: Mapping[str, Any] | None = None, *, free: Collection[str] = ()

@@ -26,7 +26,7 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.source import Source, pickled
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.reduce import Dependence, ReducedModel
 from acausal.symbols import scalars, stacked
 
@@ -54,7 +54,7 @@ class CompiledModel:
     kept: dict[Any, Any] = field(default_factory=dict)
     declared: Mapping[str, Any] | None = None
 
-    @alone
+    @exclusive
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the model, which is compiled again by whoever reads it."""
         return pickled(self.source)
@@ -82,7 +82,7 @@ class CompiledModel:
         return self.reduced.z.numel()
 
     @property
-    @alone
+    @exclusive
     def report(self) -> dict[str, Any]:
         """Sizes at each stage, states, what was removed, and seconds."""
         return self.report_at()
@@ -91,7 +91,7 @@ class CompiledModel:
         """Return the report with what was found at a start."""
         return report(self.reduced, self.local.function, found or AtStart(), self.seconds)
 
-    @alone
+    @exclusive
     def summary(self, found: AtStart | None = None) -> str:
         """Return the report as text, with what was found at a start."""
         return summary(self.report_at(found))
@@ -277,12 +277,12 @@ class CompiledModel:
     def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
         return make_dae(self.reduced, self._hoisted, quadratures, moves)
 
-    @alone
+    @exclusive
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes; see `Settable`."""
         return self.settable.values(changes)
 
-    @alone
+    @exclusive
     def value(self, path: str) -> Any:
         """Return the value with which a parameter, structural parameter or effect was compiled; see `Settable`."""
         return self.settable.value(path)

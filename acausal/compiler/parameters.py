@@ -13,10 +13,10 @@ from acausal.compiler.call import Call
 from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.given import law_of_input, owner_text
+from acausal.flatten.component_tree import join, walk
+from acausal.flatten.field_values import law_of_input, owner_text
 from acausal.flatten.instantiate import not_settable
 from acausal.flatten.numeric import misshapen, numeric
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr
 from acausal.language.quantities import plain

@@ -10,11 +10,11 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import AcausalError, DeclarationError, caution
-from acausal.flatten.origin import Origin, stated
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
+from acausal.flatten.origin import Origin, located_statements
 from acausal.language.component import Component
-from acausal.language.homes import error_of, misplaced
-from acausal.language.validity import Requirement
+from acausal.language.statement_kinds import error_of, misplaced_message
+from acausal.language.validity_statements import Requirement
 from acausal.symbols import scalars, stacked
 
 Stated = tuple[Any, Origin]
@@ -90,9 +90,9 @@ def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> l
     found: list[Stated] = []
     for component in walk(tree):
         if getattr(type(component), method) is not getattr(Component, method):
-            for statement, origin in stated(component, method):
+            for statement, origin in located_statements(component, method):
                 if not isinstance(statement, kind):
-                    raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")
+                    raise error_of(statement)(f"{origin}: {misplaced_message(statement, method)}")
                 found.append((statement, Origin.of(component)))
     return found
 

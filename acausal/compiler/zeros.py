@@ -13,8 +13,8 @@ import numpy as np
 
 from acausal.errors import AcausalError, StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel, flatten
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.origin import Origin
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr

@@ -15,7 +15,7 @@ from acausal.core.curve import Curve
 from acausal.core.library import EquationsData, Pool, Progress, RequestData, address, loaded
 from acausal.core.tape import Tape, make_tape
 from acausal.instructions import READABLE
-from acausal.locks import apart
+from acausal.locks import unlocked
 from acausal.signals import Signals
 from acausal.symbols import dense
 
@@ -247,7 +247,7 @@ class Rodas:
         times, y, _ = self._steps
         if kept := self.progress.kept:
             self._last = times[kept - 1], y[kept - 1].copy()
-        end = apart(lambda: self._go(steps, at_once))
+        end = unlocked(lambda: self._go(steps, at_once))
         if end == End.MEMORY:
             raise MemoryError
         return end

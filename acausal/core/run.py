@@ -9,7 +9,7 @@ from enum import IntEnum
 import numpy as np
 
 from acausal.core.library import address, loaded
-from acausal.locks import apart
+from acausal.locks import unlocked
 
 
 class Back(IntEnum):
@@ -171,7 +171,7 @@ class Run:
             *map(address, (*self._rows, self._events)),
         )
         call = self._library.ac_run_go
-        back = Back(apart(lambda: call(self._memory, byref(request), byref(self.state))))
+        back = Back(unlocked(lambda: call(self._memory, byref(request), byref(self.state))))
         n, m = self.state.rows, self.state.events
         times, x, z, c, work = (rows[:n].copy() for rows in self._rows)
         return Rows(back, times[:, 0], x, z, c, work, self._events[:m].copy())

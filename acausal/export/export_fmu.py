@@ -24,11 +24,11 @@ from acausal.export.description import Description, Variable, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
 from acausal.export.table import TIME, Table
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import time
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.asked import planned
 from acausal.simulation.settings import settled
@@ -37,8 +37,8 @@ from acausal.solve.run import sizes_of_run
 from acausal.symbols import picked, scalars, stacked
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def export_fmu(
     model: Component | CompiledModel,
     path: str | Path,

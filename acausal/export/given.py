@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.export.beginning import Beginning
-from acausal.flatten.inputs import inputs_of
+from acausal.flatten.model_inputs import inputs_of
 from acausal.language.functions import time
 from acausal.symbols import scalars, stacked
 

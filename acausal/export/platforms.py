@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from acausal.core.build.compiling import file_of, own_platform, version
 from acausal.core.library import MEND, why_not
 from acausal.errors import ExportError
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 from acausal.result import shown_name
 
 # FMI 2 knows one folder for both processors of macOS: where both are wanted, x86-64 has it.
@@ -74,7 +74,7 @@ def _meant(given: str, known: list[str]) -> list[str]:
     choice = f"Platforms: own, all, {', '.join(known)}."
     if given == "own":
         raise ExportError(f"FMI has no folder for {name}, this platform; name others. {choice}")
-    near = likeliest(given, [*known, "own", "all"], 0.5)
+    near = most_similar(given, [*known, "own", "all"], 0.5)
     raise ExportError(
         f"there is no platform `{shown_name(given)}`{f'; did you mean `{near}`?' if near else '.'} {choice}"
     )

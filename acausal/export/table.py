@@ -12,7 +12,7 @@ from acausal.compiler import CompiledModel
 from acausal.export.beginning import Beginning
 from acausal.export.description import Causality, Variability, Variable
 from acausal.export.given import Given, Role
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
 from acausal.language import fields as f
 from acausal.language.functions import time
 from acausal.result.lookup import find, names

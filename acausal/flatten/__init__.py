@@ -1,4 +1,4 @@
-"""Flattening: from a model to one list of equations."""
+"""Flattening of a model into one list of equations."""
 
 from acausal.flatten.flat_model import FlatModel, Initial
 from acausal.flatten.flatten import flatten

@@ -1,4 +1,4 @@
-"""Simplify the equations of a model and put its FlatModel together."""
+"""Simplification of the equations of a model, and assembly of its FlatModel."""
 
 from __future__ import annotations
 
@@ -11,9 +11,12 @@ import numpy as np
 
 from acausal.errors import UnbalancedModelError
 from acausal.flatten.attributes import attributes, unknown_units, weighing
-from acausal.flatten.constraints import rates
+from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.derivatives import Derivatives
-from acausal.flatten.events import discontinuities
+from acausal.flatten.equation_owner import contradiction_text
+from acausal.flatten.field_kinds import wrong_kinds
+from acausal.flatten.flat_discontinuities import discontinuities
+from acausal.flatten.flat_loops import loops_of
 from acausal.flatten.flat_model import (
     FlatEquations,
     FlatModel,
@@ -21,31 +24,28 @@ from acausal.flatten.flat_model import (
     FlatUnknowns,
     Initial,
 )
-from acausal.flatten.kinds import wrong_kinds
-from acausal.flatten.loops import loops_of
+from acausal.flatten.linear_values import Linear, LinearValues, expressions
 from acausal.flatten.origin import Origin
-from acausal.flatten.said import Said
+from acausal.flatten.part_constraints import rates
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
-from acausal.flatten.tape import Linear, Tape, expressions
-from acausal.flatten.whose import contradiction_text
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import dense, picked, scalars, stacked
 
 
 @dataclass(frozen=True)
-class _Left:
-    """What the propagation leaves.
+class _Remaining:
+    """Remaining unknowns and equations after the propagation.
 
     Parameters
     ----------
     done : Simplification
-        What it found.
+        Result of the propagation.
     values : list of Linear
-        What each unknown is, in remaining ones.
+        Value of each unknown in the remaining ones.
     unknowns, rows : list of int
         Unknowns and residuals that remain.
     present : set of int
-        Unknowns that occurred.
+        Unknowns that occurred in the equations.
     """
 
     done: Simplification
@@ -56,7 +56,7 @@ class _Left:
 
     @cached_property
     def place(self) -> dict[int, int]:
-        """Unknown -> its place among those that remain."""
+        """Unknown -> its position among the remaining ones."""
         return {k: n for n, k in enumerate(self.unknowns)}
 
 
@@ -65,17 +65,17 @@ class Assembly:
 
     Parameters
     ----------
-    raw : Said
-        What the components stated.
+    raw : CollectedStatements
+        Statements of the components.
     chain : Derivatives
         Symbols of the variables and of their derivatives.
     resolved : callable
         Replaces placeholders of derivatives in a list of expressions.
     declared : dict of int to casadi.SX
-        Variables with a declared derivative that is not integrated.
+        Variables with a declared derivative that are not integrated.
     """
 
-    def __init__(self, raw: Said, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
+    def __init__(self, raw: CollectedStatements, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
         self.raw, self.chain, self.declared = raw, chain, declared
         self.size = chain.variables.numel()
         closures = raw.equations.closures
@@ -91,7 +91,7 @@ class Assembly:
         self.origins += [self.origins[c.row] for c in closures]
 
     def flat_model(self) -> FlatModel:
-        """Simplify and assemble."""
+        """Return the simplified FlatModel."""
         left = self._simplified()
         done, removed = left.done, list(left.done.solved)
         was = picked(self.symbols, removed)
@@ -113,24 +113,24 @@ class Assembly:
             counts=self._counts(left),
         )
 
-    def _simplified(self) -> _Left:
+    def _simplified(self) -> _Remaining:
         """Propagate constants and aliases."""
         own = stacked(self.raw.build.parameters.symbols)
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
-        tape = Tape(self.symbols, given, self.residuals)
-        present = set(tape.input) | self._asked()
+        linear = LinearValues(self.symbols, given, self.residuals)
+        present = set(linear.input) | self._requested()
         units = unknown_units(self.raw, self.lower)
-        done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept).run()
+        done = Simplifier(linear, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept).run()
         self._refuse_contradictions(done)
-        values = [tape.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
+        values = [linear.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
         self.origins += [self.origins[source.row] for _, source in done.left]
         unused = self._unused(done)
         rows = [r for r in range(len(self.origins)) if r not in done.used and r not in unused]
         chained = {k for k, up in enumerate(done.derivative) if up >= 0} | {up for up in done.derivative if up >= 0}
         needed = chained | present | set(range(self.size))
-        return _Left(done, values, sorted(needed.difference(done.solved)), rows, present)
+        return _Remaining(done, values, sorted(needed.difference(done.solved)), rows, present)
 
-    def _unknowns(self, left: _Left, eliminated: tuple[ca.SX, ca.SX]) -> FlatUnknowns:
+    def _unknowns(self, left: _Remaining, eliminated: tuple[ca.SX, ca.SX]) -> FlatUnknowns:
         found = attributes(self.raw, self.lower, self._jumping(), left.done.solved)
         own = [found[k] for k in left.unknowns]
         at = [k for k in self.declared if k in left.place]
@@ -149,7 +149,7 @@ class Assembly:
             eliminated=eliminated,
         )
 
-    def _equations(self, left: _Left, residuals: ca.SX, eliminated: tuple[ca.SX, ca.SX]) -> FlatEquations:
+    def _equations(self, left: _Remaining, residuals: ca.SX, eliminated: tuple[ca.SX, ca.SX]) -> FlatEquations:
         kept, defines = left.done.kept, self._defines(left)
         place = {row: residuals.numel() + k for k, row in enumerate(kept)}
         residuals = ca.vertcat(residuals, expressions(list(kept.values()), self.symbols))
@@ -159,28 +159,30 @@ class Assembly:
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
             redundant=tuple(self.origins[r] for r in left.done.redundant),
-            givers=lambda k: self._givers(self._source(left.rows[k], left.done), left.done),
+            eliminated_by=lambda k: self._eliminating(self._source(left.rows[k], left.done), left.done),
             repeats=lambda: self._repeats(left.done),
         )
 
     def _source(self, row: int, done: Simplification) -> Source:
-        """What a row is: a residual, or a derivative that removed no unknown."""
+        """Return the source of a row: a residual, or a derivative that removed no unknown."""
         n = self.residuals.numel()
         return Source(row) if row < n else done.left[row - n][1]
 
-    def _givers(self, source: Source, done: Simplification) -> tuple[Origin, ...]:
-        """Equations that removed the unknowns of a residual, those of the whole model first."""
+    def _eliminating(self, source: Source, done: Simplification) -> tuple[Origin, ...]:
+        """Return the equations that eliminated unknowns from a residual, those of the whole model first."""
         place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))}
         entries, found = scalars(self.residuals), [source]
         for row, derivatives in found:
             inside = (*(place.get(s.element_hash(), -1) for s in ca.symvar(entries[row])), *derivatives)
-            found += dict.fromkeys(done.givers[k] for k in inside if k in done.givers and done.givers[k] not in found)
+            found += dict.fromkeys(
+                done.eliminated_by[k] for k in inside if k in done.eliminated_by and done.eliminated_by[k] not in found
+            )
         return tuple(sorted((self.origins[s.row] for s in found[1:]), key=lambda o: bool(o.path)))
 
     def _repeats(self, done: Simplification) -> tuple[tuple[Origin, ...], ...]:
-        """Redundant equations that close no loop, each followed by those that gave its unknowns."""
+        """Return the redundant equations that close no loop, each followed by those that eliminated its unknowns."""
         own = [*(Source(row) for row in done.redundant if row not in self.substitutes), *done.repeated]
-        return tuple(tuple(dict.fromkeys((self.origins[s.row], *self._givers(s, done)))) for s in own)
+        return tuple(tuple(dict.fromkeys((self.origins[s.row], *self._eliminating(s, done)))) for s in own)
 
     def _parameters(self) -> FlatParameters:
         own = self.raw.build.parameters
@@ -194,7 +196,7 @@ class Assembly:
             structural_zeros=tuple(own.structural_zeros),
         )
 
-    def _counts(self, left: _Left) -> dict[str, int]:
+    def _counts(self, left: _Remaining) -> dict[str, int]:
         done = left.done
         return {
             "equations_flat": len(self.origins) - len(self.substitutes) - len(done.left),
@@ -206,25 +208,25 @@ class Assembly:
             "unknowns_simplified": len(left.unknowns),
         }
 
-    def _asked(self) -> set[int]:
-        """Derivatives that initial equations and energies hold; they are unknowns even where no equation holds them."""
+    def _requested(self) -> set[int]:
+        """Return the derivatives in initial equations and energies, which are unknowns even without an equation."""
         column = ca.vertcat(self.initial_residuals, *self.energies.values())
-        asked = {s.element_hash() for s in ca.symvar(column)}
+        inside = {s.element_hash() for s in ca.symvar(column)}
         derivatives = scalars(stacked(self.chain.levels[1:]))
-        return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in asked}
+        return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in inside}
 
-    def _rates(self, left: _Left) -> set[int]:
-        """Hashes of the unknowns with which a constraint of a part does not constrain by itself."""
+    def _rates(self, left: _Remaining) -> set[int]:
+        """Return the hashes of unknowns whose presence makes an equation of a part no constraint."""
         found = [k for k in left.unknowns if k not in self.declared and left.done.derivative[k] < 0]
         return rates(picked(self.symbols, found), self.raw.declared, self.raw.index, self.declared)
 
     def _unused(self, done: Simplification) -> set[int]:
-        """Redundant residuals, and the substitutes of the others."""
+        """Return the redundant residuals, and the substitutes of the independent ones."""
         redundant = set(done.redundant)
         return redundant | {s for row, s in self.substitutes.items() if row not in redundant}
 
     def _chains(self, present: set[int]) -> list[int]:
-        """Unknown -> its derivative among the symbols, as far as a derivative occurs."""
+        """Return the derivative of each unknown, or -1 if none occurs."""
         derivative = [-1] * self.symbols.numel()
         for k, lower in reversed([*enumerate(self.lower, self.size)]):
             if k in present or derivative[k] >= 0:
@@ -238,8 +240,8 @@ class Assembly:
             rank[k] += 5 * DECLARED
         return rank
 
-    def _defines(self, left: _Left) -> dict[int, int]:
-        """Residual that remains -> the declared unknown on its left-hand side, by its own name or by that of an alias."""
+    def _defines(self, left: _Remaining) -> dict[int, int]:
+        """Return, for remaining residuals, the declared unknown on the left-hand side, itself or by an alias."""
         own: dict[int, int] = {}
         alias: dict[int, int] = {}
         rows, place, kept = set(left.rows), left.place, self.raw.kept
@@ -267,7 +269,7 @@ class Assembly:
         return own
 
     def _jumping(self) -> list[int]:
-        """Variables that jump at instants, which have to be states."""
+        """Return the continuous variables that jump at events, which must be states."""
         targets = [
             jump.target for guard in self.discontinuities.guards for jump in guard.jumps if jump.target.is_symbolic()
         ]
@@ -275,9 +277,9 @@ class Assembly:
         return [k for k in places if k >= 0]
 
     def _initial(self, was: ca.SX, becomes: ca.SX) -> tuple[Initial, ...]:
-        """Fixed start values, then the initial equations of components."""
+        """Return the fixed start values, then the initial equations of components."""
         fixed = [
-            (residual, (text, replace(Origin.of(a.owner), where=a.said)))
+            (residual, (text, replace(Origin.of(a.owner), where=a.start_line)))
             for a in self.raw.arrays
             for residual, text in a.conditions()
         ]
@@ -293,6 +295,6 @@ class Assembly:
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:
             wrong = [(self.origins[source.row], value) for source, value in done.contradictions]
-            others = dict.fromkeys(o for source, _ in done.contradictions[:5] for o in self._givers(source, done))
+            others = dict.fromkeys(o for source, _ in done.contradictions[:5] for o in self._eliminating(source, done))
             kinds = wrong_kinds(self.raw.build.root, [self.residuals[source.row] for source, _ in done.contradictions])
             raise UnbalancedModelError("\n".join([*kinds, contradiction_text(self.raw.build.root, wrong, others)]))

@@ -1,4 +1,4 @@
-"""Attributes of the unknowns: what a removed alias was declared with passes on to the unknown that it is."""
+"""Attributes of the unknowns: a removed alias passes its attributes on to the remaining unknown."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import casadi as ca
 import numpy as np
 
-from acausal.flatten.said import Said
-from acausal.flatten.tape import Linear
+from acausal.flatten.collected_statements import CollectedStatements
+from acausal.flatten.linear_values import Linear
 from acausal.flatten.variables import VariableArray
 from acausal.language.fields import ALWAYS
 from acausal.symbols import dense, scalars, stacked, vec
@@ -21,9 +21,9 @@ ZERO = ca.SX(0)
 
 @dataclass
 class Attributes:
-    """Attributes of one scalar unknown, with the words of `FlatUnknowns`.
+    """Attributes of a scalar unknown, named as in `FlatUnknowns`.
 
-    `weight` is that of the start value: an instance takes precedence over its class, and that over nothing.
+    `weight` is the precedence of the start value: 2 from an instance, 1 from a class, 0 for none.
     """
 
     name: str
@@ -36,11 +36,11 @@ class Attributes:
     weight: int = 0
 
     def derivative(self) -> Attributes:
-        """Attributes of the time derivative, of which nothing else is declared."""
+        """Return the attributes of the time derivative, which has no declaration."""
         return Attributes(f"der({self.name})", _rate(self.unit))
 
     def receive(self, alias: Attributes, offset: float, factor: float) -> None:
-        """Take what an alias was declared with, which is offset + factor times this unknown."""
+        """Take the attributes of an alias, which equals offset + factor times this unknown."""
         if alias.weight > self.weight:
             self.start, self.weight, self.guessed = (alias.start - offset) / factor, alias.weight, alias.guessed
         if alias.preference > self.preference == 0:
@@ -49,19 +49,21 @@ class Attributes:
             self.nominal, self.sized = alias.nominal / abs(factor), True
 
 
-def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapping[int, Linear]) -> list[Attributes]:
-    """Return the attributes of all unknowns, those of the derivatives behind those of the variables.
+def attributes(
+    raw: CollectedStatements, lower: list[int], jumping: Iterable[int], solved: Mapping[int, Linear]
+) -> list[Attributes]:
+    """Return the attributes of all unknowns, variables before derivatives.
 
     Parameters
     ----------
-    raw : Said
-        What the components stated.
+    raw : CollectedStatements
+        Statements of the components.
     lower : list of int
-        Of each derivative, what it is the derivative of.
+        Position of the differentiated unknown, for each derivative.
     jumping : iterable of int
-        Variables that jump at instants, which have to be states.
+        Variables that jump at events, which must be states.
     solved : mapping of int to Linear
-        What each removed unknown is, in the order of removal.
+        Value of each removed unknown, in the order of removal.
     """
     found = [a for array in raw.arrays for a in _declared(array)]
     for attribute, nominal in zip(found, _nominals(raw), strict=True):
@@ -78,16 +80,16 @@ def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapp
     return found
 
 
-def unknown_units(raw: Said, lower: list[int]) -> list[Dimension | None]:
-    """Return the units of all unknowns, those of the derivatives behind those of the variables; None where not known."""
+def unknown_units(raw: CollectedStatements, lower: list[int]) -> list[Dimension | None]:
+    """Return the units of all unknowns, variables before derivatives; None for an unknown unit."""
     found = [unit for array in raw.arrays for unit in array.units]
     for k in lower:
         found.append(_rate(found[k]))
     return found
 
 
-def weighing(raw: Said) -> tuple[str, ...]:
-    """Names of the parameters that nominal values depend on."""
+def weighing(raw: CollectedStatements) -> tuple[str, ...]:
+    """Return the names of the parameters on which nominal values depend."""
     inside = {s.element_hash() for s in ca.symvar(stacked(_weights(raw).values()))}
     own = raw.build.parameters
     return tuple(name for name, s in zip(own.names, own.symbols, strict=True) if s.element_hash() in inside)
@@ -98,7 +100,7 @@ def _rate(unit: Dimension | None) -> Dimension | None:
 
 
 def _declared(array: VariableArray) -> Iterator[Attributes]:
-    """Yield what is declared of each entry of a variable, except for its nominal value."""
+    """Yield the declared attributes of each entry of a variable, except its nominal value."""
     starts = scalars(array.start.sx)
     entries = zip(array.names, array.units, starts, array.fixed, array.guessed, strict=True)
     for name, unit, start, fixed, given in entries:
@@ -109,13 +111,13 @@ def _declared(array: VariableArray) -> Iterator[Attributes]:
         )
 
 
-def _weights(raw: Said) -> dict[int, ca.SX]:
-    """Nominal values of variables, in parameters, by the expression that gives them."""
+def _weights(raw: CollectedStatements) -> dict[int, ca.SX]:
+    """Return the distinct nominal values, in parameters, by the identity of their expressions."""
     return {id(a.nominal): dense(vec(a.nominal.sx)) for a in {id(a.nominal): a for a in raw.arrays}.values()}
 
 
-def _nominals(raw: Said) -> list[float]:
-    """Nominal values of all variables as they are when compiled."""
+def _nominals(raw: CollectedStatements) -> list[float]:
+    """Return the nominal values of all variables for the parameters when compiled."""
     own, weights = raw.build.parameters, _weights(raw)
     function = ca.Function("nominal", [stacked(own.symbols)], [stacked(weights.values())])
     found = np.array(function(np.array(own.values))).ravel().tolist()

@@ -1,4 +1,4 @@
-"""Form the derivatives that equations request with der(), all in a few calls."""
+"""Time derivatives requested with der(), formed in a few calls."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from acausal.symbols import dense, scalars, stacked, vec
 
 
 class Derivatives:
-    """Symbols of the variables, and of those of their time derivatives that occur.
+    """Symbols of the variables and of their time derivatives that occur.
 
     Parameters
     ----------
     variables : casadi.SX
         All scalar variables, a column.
     declared : dict of int to casadi.SX
-        Variables whose derivative is a declared expression of other variables.
+        Declared derivatives of variables, in other variables.
     """
 
     def __init__(self, variables: ca.SX, declared: dict[int, ca.SX]) -> None:
@@ -28,14 +28,14 @@ class Derivatives:
 
     @property
     def levels(self) -> list[ca.SX]:
-        """The variables, those of their first derivatives that occur, and so on."""
+        """The variables, their first derivatives that occur, and so on, a column each."""
         last = max((level for level, _ in self._symbols), default=0)
         places = [sorted(place for place in self._symbols if place[0] == level) for level in range(1, last + 1)]
         return [self.variables, *[stacked([self._symbols[place] for place in level]) for level in places]]
 
     @property
     def lower(self) -> list[int]:
-        """Place of what each derivative is that of, in all levels one after the other."""
+        """Position of the differentiated symbol, for each derivative, in all levels one after the other."""
         n = self.variables.numel()
         at = {place: n + k for k, place in enumerate(sorted(self._symbols))}
         return [variable if level == 1 else at[level - 1, variable] for level, variable in at]
@@ -51,7 +51,7 @@ class Derivatives:
         return self._symbols[place]
 
     def of(self, expressions: ca.SX) -> ca.SX:
-        """Differentiate a column of expressions with respect to time."""
+        """Return the time derivatives of a column of expressions."""
         at, seeds = list[Any](), list[Any]()
         for symbol in ca.symvar(expressions):
             level, variable = self._places.get(symbol.element_hash(), (0, -1))
@@ -62,7 +62,7 @@ class Derivatives:
         return dense(ca.jtimes(expressions, ca.vertcat(*at, time.sx), ca.vertcat(*seeds, 1)))
 
     def resolve(self, pending: list[tuple[ca.SX, ca.SX]]) -> tuple[ca.SX, ca.SX]:
-        """Return placeholders and the derivatives that they stand for; an expression may hold other placeholders."""
+        """Return placeholders and their derivatives; an expression may contain other placeholders."""
         names = {s.element_hash(): k for k, (p, _) in enumerate(pending) for s in scalars(p)}
         depth: list[int] = []
         for _, expression in pending:

@@ -1,4 +1,4 @@
-"""Guards and discrete variables of a flat model: what changes at instants."""
+"""Event conditions, discrete variables, smooth laws and set-valued laws of a flat model."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import shape_of, unit_of
+from acausal.flatten.component_tree import join
+from acausal.flatten.field_values import shape_of, unit_of
 from acausal.flatten.origin import Origin, value_origin, with_place
-from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component
@@ -34,7 +34,7 @@ class Discrete:
     owner: Component
 
     def start(self) -> ca.SX:
-        """Value at the start, a column; the variables of the owner must exist by now."""
+        """Return the initial value, a column; the variables of the owner must exist."""
         given = self.owner._values.get(self.declared.name)
         value = given.value if isinstance(given, f.InitialValue) else f.evaluate(self.declared.start, self.owner)
         given = as_expr(plain(value, self.expr.unit, f"start of `{self.expr.name}`"))
@@ -49,7 +49,7 @@ class Discrete:
 
 @dataclass(frozen=True)
 class Jump:
-    """A scalar that becomes `value` at an instant; the place of a discrete one, or None where `target` is a state."""
+    """A scalar that becomes `value` at an event; `discrete` is its number, or None if `target` is a state."""
 
     target: ca.SX
     value: ca.SX
@@ -58,9 +58,9 @@ class Jump:
 
 @dataclass(frozen=True)
 class Guard:
-    """A condition that is watched: `excess` is negative while it holds; at 0 it holds if `inclusive`.
+    """An event condition: its indicator `excess` is negative while it holds; at 0 it holds if `inclusive`.
 
-    The guards of a model are those of its switches, then one for each `when`, with its jumps.
+    The conditions of a model are those of its switches, then one for each `when`, with its jumps.
     """
 
     condition: Condition
@@ -70,18 +70,18 @@ class Guard:
 
     @cached_property
     def excess(self) -> ca.SX:
-        """Negative while the condition holds."""
+        """Event indicator, negative while the condition holds."""
         return self.condition.excess.sx
 
     @property
     def inclusive(self) -> bool:
-        """Whether it holds where the excess is 0."""
+        """True if the condition holds at indicator 0."""
         return self.condition.kind == "<="
 
 
 @dataclass(frozen=True)
 class Law:
-    """A set-valued law: its speed, the rate and the limit, and the places of its discrete variables.
+    """A set-valued law: speed, rate and limit, and the numbers of its discrete variables.
 
     These are `mode`, `offset`, `shared`, `share` and `slip`, in this order.
     """
@@ -95,10 +95,10 @@ class Law:
 
 @dataclass(frozen=True)
 class Promise:
-    """A law that is declared smooth: where `excess` is 0, all entries of `step` should be; `value` is the law itself.
+    """A law that is declared smooth: where `excess` is 0, `step` should be 0; `value` is the law itself.
 
-    A case holds where the excess is negative, where it is 0 only if `inclusive`. `compared` are the excesses of the comparisons
-    that it is made of.
+    A case holds where the excess is negative, and at 0 if `inclusive`; `compared` contains the excesses of its
+    comparisons.
     """
 
     excess: ca.SX
@@ -109,12 +109,12 @@ class Promise:
     origin: Origin
 
     def holds(self, excess: Any) -> Any:
-        """Whether the case holds, for one excess or an array of them."""
+        """Return whether the case holds, for an excess or an array of them."""
         return (excess < 0) | ((excess == 0) & self.inclusive)
 
 
 def create_discretes(components: list[Component]) -> list[Discrete]:
-    """Create the symbols of the discrete variables and set them as attributes."""
+    """Create the symbols of the discrete variables and set them as attributes of their components."""
     found = []
     for component in components:
         for name, declared in component.fields.items():
@@ -129,7 +129,7 @@ def create_discretes(components: list[Component]) -> list[Discrete]:
 
 
 def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
-    """Start values of the discrete variables, a column each."""
+    """Return the initial values of the discrete variables, a column each."""
     PENDING.get().watches = False
     try:
         return [with_place(d.start, value_origin(d.owner, d.declared.name)) for d in discretes]
@@ -138,25 +138,25 @@ def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
 
 
 def promises(pending: Pending, resolve: Resolve) -> tuple[Promise, ...]:
-    """Put together what the equations promise of smooth laws; for the arguments see `guards`."""
-    compared = [stacked(part.excess.sx for part in condition.comparisons) for condition, *_ in pending.promises]
-    parts = zip(pending.promises, compared, strict=True)
+    """Return the laws that are declared smooth; for the arguments see `guards`."""
+    compared = [stacked(part.excess.sx for part in condition.comparisons) for condition, *_ in pending.smooth_steps]
+    parts = zip(pending.smooth_steps, compared, strict=True)
     sx = iter(resolve([sx for (condition, *law), own in parts for sx in (condition.excess.sx, *law, own)]))
     return tuple(
         Promise(next(sx), next(sx), next(sx), next(sx), condition.kind == "<=", origin)
-        for (condition, *_), origin in zip(pending.promises, pending.promised, strict=False)
+        for (condition, *_), origin in zip(pending.smooth_steps, pending.smooth_origins, strict=False)
     )
 
 
 def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Guard, ...]:
-    """Put together the guards of the switches and of the statements of jumps.
+    """Return the event conditions of switches and of `when` statements.
 
     Parameters
     ----------
     pending : Pending
-        What equations requested.
+        Requests of equations.
     discretes : list of Discrete
-        Which jumps are those of discrete variables.
+        Discrete variables, in the order of their numbers.
     resolve : callable
         Replaces placeholders of derivatives.
     """
@@ -164,7 +164,9 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     conditions = [condition for _, condition in pending.switches] + [when.condition for when, _ in pending.whens]
     excess = iter(resolve([part.excess.sx for condition in conditions for part in condition.comparisons]))
     conditions = [c.replaced(lambda part: Condition(Expr(next(excess)), part.kind)) for c in conditions]
-    found = [Guard(c, origin) for c, origin in zip(conditions, pending.places, strict=False)]  # whens follow below
+    found = [
+        Guard(c, origin) for c, origin in zip(conditions, pending.switch_origins, strict=False)
+    ]  # one for each switch
     for condition, (when, origin) in zip(conditions[len(found) :], pending.whens, strict=True):
         jumps = []
         for jump in when.jumps:
@@ -176,7 +178,7 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
 
 
 def laws(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Law, ...]:
-    """Put together the set-valued laws; for the arguments see `guards`."""
+    """Return the set-valued laws; for the arguments see `guards`."""
     place, found = _places(discretes), list[Law]()
     sx = iter(resolve([e.sx for law, _ in pending.laws for e in (law.speed, law.rate, law.limit)]))
     for law, origin in pending.laws:
@@ -184,13 +186,13 @@ def laws(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple
         places = [place.get(e.sx.element_hash(), -1) for e in own]
         if -1 in places:
             raise DeclarationError(
-                f"{origin}: set_valued needs discrete variables, and `{own[places.index(-1)].name}` is none. Declare it by "
-                'discrete("...").'
+                f"{origin}: set_valued needs discrete variables, but `{own[places.index(-1)].name}` is not discrete. "
+                'Declare it discrete("...").'
             )
         found.append(Law(next(sx), next(sx), next(sx), tuple(places), origin))
     return tuple(found)
 
 
 def _places(discretes: list[Discrete]) -> dict[int, int]:
-    """Symbols of discrete variables -> their places."""
+    """Return the number of each discrete scalar by the hash of its symbol."""
     return {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(d.expr.sx))}

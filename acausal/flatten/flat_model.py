@@ -1,4 +1,4 @@
-"""The flat model: all unknowns and equations of a model, simplified, with their names and origins."""
+"""Flat model: simplified unknowns and equations of a model, with their names and origins."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from acausal.units import Dimension
 
 @dataclass(frozen=True)
 class Initial:
-    """A condition of the initial system: residual, what it says, where, and whether closed loops override it."""
+    """An initial condition: residual, text, origin, and whether closed loops override it."""
 
     residual: ca.SX
     text: str
@@ -28,18 +28,18 @@ class Initial:
 
 @dataclass(frozen=True)
 class FlatClosure:
-    """A residual that closes a loop, or a constraint that a part states.
+    """A residual that closes a loop, or a constraint of a part.
 
     Parameters
     ----------
     row : int
-        The residual.
+        Number of the residual.
     dual : casadi.SX
-        Flow that works on it, undetermined where the residual is redundant.
+        Flow that works on the residual, undetermined if the residual is redundant.
     loop : int
-        Number of its loop, -1 for a constraint of a part.
+        Number of the loop, -1 for a constraint of a part.
     statement : int
-        Number of the equation of arrays that it is an entry of: these have one unit.
+        Number of the array equation, whose entries have one unit.
     """
 
     row: int
@@ -50,7 +50,7 @@ class FlatClosure:
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop that is cut: the connection, its components, and which of its closures were redundant.
+    """A closed loop: the cut connection, its components, and its redundant closures.
 
     Parameters
     ----------
@@ -59,15 +59,15 @@ class Loop:
     where : str
         File and line of the connection.
     parts : tuple of str
-        Paths of the components in the loop that move in themselves.
+        Paths of the components in the loop that have states.
     constraints : int
-        Scalar equations that close it.
+        Number of scalar equations that close the loop.
     dropped : int
-        Those that became 0 = 0.
+        Number of redundant ones.
     undetermined : tuple of str
-        Flows that were left undetermined by them and are 0.
+        Flows that the redundant equations leave undetermined, set to 0.
     kind : str
-        What kind of loop it is.
+        Kind of the loop, for reports.
     """
 
     a: str
@@ -82,32 +82,32 @@ class Loop:
 
 @dataclass(frozen=True)
 class FlatUnknowns:
-    """Scalar unknowns; derivatives that occur are unknowns of their own.
+    """Scalar unknowns; derivatives are separate unknowns.
 
     Parameters
     ----------
     symbols : casadi.SX
         The unknowns, a column.
     names : tuple of str
-        Name of each in the user's words.
+        Name of each unknown, as the user declared it.
     derivative : tuple of int
-        Unknown -> the unknown that is its time derivative, or -1.
+        Position of the time derivative of each unknown, or -1.
     declared : mapping of int to casadi.SX
-        Unknowns with a declared derivative.
+        Declared derivatives of unknowns.
     preference : tuple of int
-        How much each is wanted as a state.
+        Preference of each as a state.
     nominal : array
-        Typical size of each.
+        Nominal value of each.
     sized : array of bool
-        Whether that is declared.
+        True where the nominal value is declared.
     units : tuple of Dimension or None
-        Unit of each, None where it is not known.
+        Unit of each, None if unknown.
     start : casadi.SX
         Start value of each, in parameters.
     guessed : array of bool
-        Whether an instance gives that.
+        True where the start value is from an instance.
     eliminated : (casadi.SX, casadi.SX)
-        Symbols of the model that were removed, and what they are, in remaining unknowns.
+        Eliminated symbols, and their expressions in the remaining unknowns.
     """
 
     symbols: ca.SX
@@ -130,19 +130,19 @@ class FlatEquations:
     Parameters
     ----------
     residuals : casadi.SX
-        What is 0, a column.
+        Residuals, a column.
     origins : tuple of Origin
-        Where each residual comes from.
+        Origin of each residual.
     defines : tuple of int
-        Residual -> the unknown with a declared derivative that it defines, or -1.
+        Unknown with a declared derivative that each residual defines, or -1.
     initial : tuple of Initial
         Fixed start values and initial equations.
     redundant : tuple of Origin
-        Redundant equations.
-    givers : callable
-        From a residual to the equations that gave the unknowns that were removed from it.
+        Origins of redundant equations.
+    eliminated_by : callable
+        Origins of the equations that eliminated unknowns from a residual, as a function of its number.
     repeats : callable
-        Redundant equations that close no loop, each followed by those that gave its unknowns.
+        Redundant equations that close no loop, each followed by those that eliminated its unknowns.
     """
 
     residuals: ca.SX
@@ -150,13 +150,13 @@ class FlatEquations:
     defines: tuple[int, ...]
     initial: tuple[Initial, ...]
     redundant: tuple[Origin, ...]
-    givers: Callable[[int], tuple[Origin, ...]]
+    eliminated_by: Callable[[int], tuple[Origin, ...]]
     repeats: Callable[[], tuple[tuple[Origin, ...], ...]]
 
 
 @dataclass(frozen=True)
 class FlatParameters:
-    """Free parameters, and what is known of the others.
+    """Free and bound parameters.
 
     Parameters
     ----------
@@ -167,13 +167,13 @@ class FlatParameters:
     values : array
         Value of each.
     weighing : tuple of str
-        Those that nominal values depend on.
+        Parameters on which nominal values depend.
     limits : tuple of (str, casadi.SX, Parameter)
-        Paths of bounded parameters, what they are in free ones, and their declarations with the bounds.
+        Paths of parameters with bounds, their expressions in free ones, and their declarations.
     bound : mapping of str to str
-        Parameters that follow others, and what they follow.
+        Parameters that depend on others, and the names of these.
     structural_zeros : tuple of str
-        Entries that were exactly 0 and have no symbol.
+        Entries that were exactly 0 when compiled and have no symbol.
     """
 
     symbols: ca.SX
@@ -187,19 +187,18 @@ class FlatParameters:
 
 @dataclass(frozen=True)
 class FlatDiscontinuities:
-    """What changes at instants, and what must not.
+    """Switches, jumps and discrete variables, and expressions that must not jump.
 
     Parameters
     ----------
     switches : tuple of casadi.SX
         Symbols of the switches.
     guards : tuple of Guard
-        Conditions that are watched: one for each switch, which is 1 while it holds, then one for each statement of
-        jumps.
+        Event conditions: one for each switch, which is 1 while the condition holds, then one for each `when`.
     discretes : tuple of (casadi.SX, casadi.SX)
-        Symbols of the discrete variables, and their values at the start.
+        Symbols of the discrete variables, and their initial values.
     continuous : tuple of (casadi.SX, Origin)
-        Expressions that der() differentiates and that switches change: they must not jump.
+        Operands of der() that depend on switches: they must not jump.
     promises : tuple of Promise
         Laws that are declared smooth.
     laws : tuple of Law
@@ -215,13 +214,13 @@ class FlatDiscontinuities:
 
     @property
     def constants(self) -> ca.SX:
-        """Symbols that are constant between instants: switches, then discrete variables."""
+        """Symbols that are constant between events: switches, then discrete variables."""
         return stacked([*self.switches, *[symbol for symbol, _ in self.discretes]])
 
 
 @dataclass(frozen=True)
 class FlatLoops:
-    """Loops that are cut, the residuals that close them and the constraints that parts state; `folded` became 0 = 0 of these."""
+    """Closed loops and their closures, with the constraints of parts; `folded` are the redundant ones of these."""
 
     cuts: tuple[Loop, ...]
     closures: tuple[FlatClosure, ...]
@@ -229,7 +228,7 @@ class FlatLoops:
 
     @property
     def of_parts(self) -> list[int]:
-        """Places of the constraints of parts among the closures."""
+        """Positions of the constraints of parts among the closures."""
         return [k for k, closure in enumerate(self.closures) if closure.loop < 0]
 
 
@@ -240,15 +239,15 @@ class FlatModel:
     Parameters
     ----------
     unknowns, equations, parameters, discontinuities, loops
-        What the model consists of.
+        Contents of the model.
     energies : mapping of str to casadi.SX
-        Stored energy, dissipated and supplied power of the whole model, in original symbols.
+        Stored energy, dissipated and supplied power of the whole model, in original symbols, by name.
     unconnected : tuple of str
-        Ports of parts that nothing is connected to.
+        Unconnected ports of parts.
     tree : Component
         The bound model, whose attributes hold the original symbols.
     counts : mapping of str to int
-        Sizes on the way here.
+        Numbers of equations and unknowns before and after simplification.
     """
 
     unknowns: FlatUnknowns

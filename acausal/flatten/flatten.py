@@ -1,4 +1,4 @@
-"""flatten(): from a model to its FlatModel."""
+"""Flattening of a model to its FlatModel."""
 
 from __future__ import annotations
 
@@ -8,27 +8,27 @@ from typing import Any
 import casadi as ca
 
 from acausal.flatten.assembly import Assembly
+from acausal.flatten.collected_statements import CollectedStatements, collect_statements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
-from acausal.flatten.foreign import refuse_foreign
-from acausal.flatten.inputs import refuse_rates_of_inputs
+from acausal.flatten.model_inputs import refuse_input_derivatives
+from acausal.flatten.opaque_calls import refuse_opaque_expressions
 from acausal.flatten.origin import Origin
-from acausal.flatten.said import Said, hear
 from acausal.language.component import Component
 from acausal.symbols import scalars
 
 
 def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: Collection[str] = ()) -> FlatModel:
-    """Flatten a model: instantiate, connect, collect the equations, propagate constants and aliases.
+    """Return the flat model: instantiate, connect, collect the equations, propagate constants and aliases.
 
     Parameters
     ----------
     model : Component
         The model as constructed.
     overrides : mapping of str to value, optional
-        Parameters and structural parameters by path that replace those of the model.
+        Values of parameters and structural parameters by path, instead of those in the model.
     free : collection of str
-        Parameters that stay in the equations even if they are 0.
+        Parameters that keep a symbol even if they are 0.
 
     Returns
     -------
@@ -37,16 +37,16 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
     Raises
     ------
     DeclarationError, ConnectError, UnitsError
-        Where the model is wrong, with component and line.
+        For errors in the model, with component and line.
     """
-    raw = hear(model, overrides, free)
-    refuse_foreign(raw)
+    raw = collect_statements(model, overrides, free)
+    refuse_opaque_expressions(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
     chain = Derivatives(raw.variables, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
 
-    refuse_rates_of_inputs(raw)
+    refuse_input_derivatives(raw)
 
     def resolved(expressions: list[ca.SX]) -> list[ca.SX]:
         return ca.substitute(expressions, [placeholders], [derivatives])
@@ -59,8 +59,8 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
     return Assembly(raw, chain, resolved, {k: e for k, e in declared.items() if k not in integrated}).flat_model()
 
 
-def _declared(raw: Said) -> dict[int, ca.SX]:
-    """Index of each variable with a declared derivative -> that derivative."""
+def _declared(raw: CollectedStatements) -> dict[int, ca.SX]:
+    """Return the declared derivatives by the positions of their variables."""
     return {
         raw.index[s.element_hash()]: e
         for variable, derivative in (*raw.declared, *raw.declared_by_parts)
@@ -68,8 +68,8 @@ def _declared(raw: Said) -> dict[int, ca.SX]:
     }
 
 
-def _integrated(raw: Said, declared: dict[int, ca.SX]) -> list[int]:
-    """Declared variables of chosen roots that no root equation defines."""
+def _integrated(raw: CollectedStatements, declared: dict[int, ca.SX]) -> list[int]:
+    """Return the variables of chosen roots with a declared derivative that no root equation defines."""
     if not raw.graph.roots:
         return []
     found: set[int] = set()
@@ -80,7 +80,7 @@ def _integrated(raw: Said, declared: dict[int, ca.SX]) -> list[int]:
     return sorted(k for k in found if k in declared and k not in defined)
 
 
-def _bare(raw: Said, side: ca.SX) -> list[int]:
-    """Indices of the variables if a side of an equation is nothing but variables."""
+def _bare(raw: CollectedStatements, side: ca.SX) -> list[int]:
+    """Return the positions of the variables on a side of an equation, [] if it contains other expressions."""
     indices = [raw.index.get(s.element_hash(), -1) for s in scalars(side)]
     return indices if -1 not in indices else []

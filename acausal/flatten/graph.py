@@ -1,4 +1,4 @@
-"""Graph of connections: which potentials are one variable, which flows balance, where records are cut and rooted."""
+"""Connection graph: connection sets, flow balances, spanning tree, cuts and roots."""
 
 from __future__ import annotations
 
@@ -12,30 +12,32 @@ from acausal.flatten.origin import Origin, entries, method_origin, with_place
 from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
-from acausal.language.homes import misplaced, returned
 from acausal.language.signal import CONNECTING, Wire
-from acausal.language.source import calls
+from acausal.language.source_code import calls
+from acausal.language.statement_kinds import misplaced_message, returned_message
 
-# The connectors of a connection set; the sign is -1 for one on the outside of its component.
+# The connectors of a connection set with their signs, -1 for an outside connector.
 Balance = tuple[tuple[Connector, int], ...]
 
 
 @dataclass(frozen=True)
 class Graph:
-    """What the connections of a model say.
+    """Evaluated connections of a model.
 
     Parameters
     ----------
     same : list of tuple of Connector
-        Connectors whose potentials are one variable.
+        Connectors with common potentials.
     balances : list of tuple of (Connector, int)
         Connection sets: the signed flows of each sum to zero.
     cuts : list of Cut
         Connections that close a loop and keep the residual of an over-determined record.
     roots : list of Connector
-        Potential roots that were chosen.
+        Chosen potential roots.
     unconnected : tuple of str
-        Ports of parts that nothing is connected to.
+        Unconnected ports of parts.
+    wires : list of (Component, Wire, str)
+        Signal connections with their component and line.
     """
 
     same: list[tuple[Connector, ...]]
@@ -47,7 +49,7 @@ class Graph:
 
 
 def build_graph(components: list[Component]) -> Graph:
-    """Collect the statements of all connections() and derive sets, spanning tree, cuts and roots."""
+    """Collect the statements of all connections(); return connection sets, cuts and roots."""
     connects: list[tuple[Component, Connect, str]] = []
     branches: list[Branch] = []
     roots: list[Root] = []
@@ -57,7 +59,7 @@ def build_graph(components: list[Component]) -> Graph:
     for component in components:
         for statement, origin in _connecting(component):
             if isinstance(statement, Connect | Branch | Root):
-                _refuse_strangers(statement, own, origin)
+                _refuse_ports_of_other_models(statement, own, origin)
             if isinstance(statement, Connect):
                 connects.append((component, statement, origin.where))
             elif isinstance(statement, Wire):
@@ -67,12 +69,12 @@ def build_graph(components: list[Component]) -> Graph:
             elif isinstance(statement, Root):
                 roots.append(statement)
             else:
-                raise ConnectError(f"{origin}: {misplaced(statement, 'connections')}")
-    _refuse_doubles(connects)
+                raise ConnectError(f"{origin}: {misplaced_message(statement, 'connections')}")
+    _refuse_duplicates(connects)
     try:
         cuts, chosen = spanning_tree(connectors, connects, branches, roots)
     except ConnectError:
-        _refuse_elsewhere(components)
+        _refuse_connections_in_equations(components)
         raise
     for cut in cuts:
         for part in cut.loop:
@@ -91,7 +93,7 @@ def build_graph(components: list[Component]) -> Graph:
 
 
 def _connecting(component: Component) -> list[tuple[Any, Origin]]:
-    """Return the statements of a component; meanwhile its inputs and outputs, and those of its parts, are signals."""
+    """Return the statements of a component; while they are formed, inputs and outputs are signals."""
     token = CONNECTING.set(True)
     try:
         return list(_statements(component))
@@ -100,31 +102,31 @@ def _connecting(component: Component) -> list[tuple[Any, Origin]]:
 
 
 def _statements(component: Component) -> Iterator[tuple[Any, Origin]]:
-    """Yield each statement with its place."""
+    """Return the statements with their origins."""
     if type(component).connections is Component.connections:
         return iter(())
     here = method_origin(component, "connections")
-    said = with_place(component.connections, here)
-    if said is None:
-        raise ConnectError(f"{here}: {returned(said, 'connections')}")
-    return entries(said if isinstance(said, _SEVERAL) else (said,), here, "connections", nested=_SEVERAL)
+    found = with_place(component.connections, here)
+    if found is None:
+        raise ConnectError(f"{here}: {returned_message(found, 'connections')}")
+    return entries(found if isinstance(found, _ITERABLES) else (found,), here, "connections", nested=_ITERABLES)
 
 
-_SEVERAL = (Iterator, list, tuple)  # not all that Python can go through: an entry of a string is a string
+_ITERABLES = (Iterator, list, tuple)  # no other iterables: iterating over a string gives strings again
 
 
-def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin: Origin) -> None:
-    """Refuse ports of another built model."""
+def _refuse_ports_of_other_models(statement: Connect | Branch | Root, own: set[int], origin: Origin) -> None:
+    """Raise ConnectError for a port of another built model."""
     for port in (statement.connector,) if isinstance(statement, Root) else (statement.a, statement.b):
         if id(port) not in own:
             raise ConnectError(
-                f"{origin}: {port._path} ({type(port).__name__}) belongs to another model. Write the component that has "
-                "it in the class body, and connect the port of that."
+                f"{origin}: {port._path} ({type(port).__name__}) belongs to another model. Declare its component in "
+                "the class body, and connect the port of that component."
             )
 
 
-def _refuse_elsewhere(components: list[Component]) -> None:
-    """Where something is not connected: refuse connections that are stated in equations()."""
+def _refuse_connections_in_equations(components: list[Component]) -> None:
+    """Raise ConnectError for connections in equations(), the likely reason for an unconnected part."""
     for component in components:
         word = calls(type(component).equations, "connect", "chain")
         if word:
@@ -134,7 +136,7 @@ def _refuse_elsewhere(components: list[Component]) -> None:
             )
 
 
-def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:
+def _refuse_duplicates(connects: list[tuple[Component, Connect, str]]) -> None:
     seen: dict[frozenset[int], str] = {}
     for component, statement, where in connects:
         pair = frozenset((id(statement.a), id(statement.b)))
@@ -148,7 +150,7 @@ def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:
 
 
 def _sets(members: list[Any], pairs: list[tuple[Any, Any]]) -> list[set[Any]]:
-    """Sets of members that pairs join (Galler & Fischer 1964)."""
+    """Return the sets of members joined by pairs (union-find, Galler & Fischer 1964)."""
     above = {member: member for member in (*members, *chain.from_iterable(pairs))}
 
     def top(member: Any) -> Any:
@@ -167,9 +169,9 @@ def _sets(members: list[Any], pairs: list[tuple[Any, Any]]) -> list[set[Any]]:
 def _balances(
     connectors: list[Connector], connects: list[tuple[Component, Connect, str]], order: dict[int, int]
 ) -> list[Balance]:
-    """Flow balance of every connection set; an outside connector counts negatively, an unconnected one is a set alone.
+    """Return the flow balance of every connection set (Modelica specification, 9.2).
 
-    Modelica specification, 9.2.
+    Outside connectors have negative signs; an unconnected connector is a set of its own.
     """
     joined = [((s.a, s.a._owner is component), (s.b, s.b._owner is component)) for component, s, _ in connects]
     faces = _sets([(c, False) for c in connectors], joined)

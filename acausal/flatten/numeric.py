@@ -1,4 +1,4 @@
-"""Numbers that a user gives: what is none, or of a wrong shape, is refused in words."""
+"""Conversion of values from the user to numbers, with errors for wrong types and shapes."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from acausal.errors import DeclarationError
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.fields import InitialValue
-from acausal.language.no_expression import decimal_point
-from acausal.language.quantities import refused
+from acausal.language.formatting import short
+from acausal.language.invalid_operands import decimal_point
+from acausal.language.quantities import misplaced_quantity
 from acausal.language.symbolic import Symbolic
-from acausal.language.values import shown
-from acausal.language.written import short
+from acausal.language.value_checks import shown
 from acausal.units import in_si
 
-LARGEST = float(np.sqrt(np.finfo(float).max))
+LARGEST = float(np.sqrt(np.finfo(float).max))  # largest magnitude whose square is finite
 
 
 def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str = "") -> np.ndarray:
@@ -29,22 +29,22 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str =
     Parameters
     ----------
     value : object
-        Given by the user.
+        Value from the user.
     shape : tuple of int, optional
-        The shape that it must have; None for any.
+        Required shape; None for any.
     where : str
-        What it is the value of, for messages.
+        Name of the field, for messages.
     remedy : str, optional
-        What to do where it is none, or has a wrong shape; a sentence.
+        Remedy for a wrong type or shape; a sentence.
 
     Raises
     ------
     DeclarationError
-        If it is none.
+        If the value is no finite number, or an array of another shape.
     """
     if type(value) is float and not shape and -LARGEST <= value <= LARGEST:
         return np.array(value)
-    if wrong := refused(value):
+    if wrong := misplaced_quantity(value):
         raise DeclarationError(f"{where} is {wrong}")
     single = shape == () or (shape is None and not _is_listed(value))
     try:
@@ -54,11 +54,11 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str =
     except (TypeError, ValueError):
         wanted = "a number" if single else "an array of numbers" + (f" of shape {shape}" if shape else "")
         si = in_si(value) if isinstance(value, str) and single else None
-        mend = (
+        hint = (
             f", in SI units without the unit: {si:.12g}" if si is not None else decimal_point(value) if single else ""
         )
-        more = f" {remedy}" if remedy and not mend else ""
-        raise DeclarationError(f"{where} is {_written(value)}; it must be {wanted}{mend}.{more}") from None
+        more = f" {remedy}" if remedy and not hint else ""
+        raise DeclarationError(f"{where} is {_written(value)}; it must be {wanted}{hint}.{more}") from None
     except OverflowError:
         raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
     if shape is not None and array.shape != shape:
@@ -71,7 +71,7 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str =
 
 
 def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, ...], remedy: str = "") -> str:
-    """Return the message for a value of a wrong shape; the remedy is left out where a decimal comma was meant."""
+    """Return the message for a value of a wrong shape; a decimal comma has its own remedy."""
     more = f" {remedy}" if remedy and not decimal_point(value) else ""
     if shape or len(found) > 2:
         wanted = f"have shape {shape}" if shape else "be one number"
@@ -80,7 +80,7 @@ def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, 
 
 
 def is_symbolic(value: Any) -> bool:
-    """Whether a value is an expression or a condition, or holds one."""
+    """Return whether a value is an expression or a condition, or contains one."""
     if _is_listed(value):
         return any(is_symbolic(item) for item in value)
     return isinstance(value, Expr | Condition)
@@ -101,6 +101,6 @@ def _has_no_number(value: Any) -> bool:
 
 
 def _is_listed(value: Any) -> bool:
-    """Whether a value has entries that may be no numbers."""
+    """Return whether a value has entries that may be no numbers."""
     listed = isinstance(value, np.ndarray) and value.dtype == object and value.ndim > 0
     return isinstance(value, list | tuple) or listed

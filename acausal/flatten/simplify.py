@@ -1,4 +1,4 @@
-"""Propagate constants and aliases: what is known without solving anything is removed from the system.
+"""Propagation of constants and aliases: their unknowns are eliminated without solving equations.
 
 An equation with one unknown and a constant coefficient gives a constant; one with two unknowns, both with constant
 coefficients, gives an alias. Derivative chains stay consistent: an unknown and its derivative are never merged, and an
@@ -11,18 +11,18 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from acausal.flatten.tape import Linear, Tape, add, scale
+from acausal.flatten.linear_values import Linear, LinearValues, add, scale
 from acausal.policy import POLICY
 from acausal.units import Dimension
 
 DECLARED, CHAINED = 1, 2
 PIVOT = POLICY.elimination.pivot
-# Rounding of a sum of constants.
+# Constant residual that counts as 0: round-off of a sum of constants of order 1, with a margin of about 5e3.
 ZERO = 1e-12
 
 
 class Source(NamedTuple):
-    """A residual; or a derivative of it, which holds the derivatives `unknowns` besides what it holds."""
+    """A residual, or a derivative of it, which contains the derivatives `unknowns` in addition."""
 
     row: int
     unknowns: tuple[int, ...] = ()
@@ -32,18 +32,18 @@ class Source(NamedTuple):
 class Simplification:
     """Result of the propagation, in indices of unknowns and residuals.
 
-    `solved` gives the linear value of each removed unknown (in removed and remaining ones), `derivative` the chains
-    among the remaining ones; `used` are residuals that removed an unknown,
-    `givers` those that gave each removed one, itself or by a derivative, `redundant` those that became 0 = 0, `kept`
-    those replaced by `unknown - constant`; `left` holds derivatives of used residuals that removed no unknown, each with
-    that residual, `repeated` those that became 0 = 0; `contradictions` can never hold.
+    `solved` is the linear value of each removed unknown (in removed and remaining ones), `derivative` the derivative
+    chains of the remaining ones. `used` are the residuals that removed an unknown, `eliminated_by` the source that
+    removed each unknown, `redundant` the residuals that became 0 = 0, `kept` those replaced by `unknown - constant`.
+    `left` are derivatives of used residuals that removed no unknown, each with its source, `repeated` those that became
+    0 = 0; `contradictions` are sources with a nonzero constant value.
     """
 
     derivative: list[int]
     rank: list[int]
     solved: dict[int, Linear] = field(default_factory=dict)
     used: dict[int, int] = field(default_factory=dict)
-    givers: dict[int, Source] = field(default_factory=dict)
+    eliminated_by: dict[int, Source] = field(default_factory=dict)
     redundant: list[int] = field(default_factory=list)
     kept: dict[int, Linear] = field(default_factory=dict)
     left: list[tuple[Linear, Source]] = field(default_factory=list)
@@ -52,34 +52,34 @@ class Simplification:
 
 
 class Simplifier:
-    """Worklist over the residuals of a tape.
+    """Worklist algorithm over linear values of residuals.
 
     Parameters
     ----------
-    tape : Tape
+    linear : LinearValues
         Residuals with their linear values.
     derivative : list of int
-        Unknown -> the unknown that is its derivative, or -1.
+        Position of the derivative of each unknown, or -1.
     rank : list of int
-        How strongly an unknown is preferred to stay: CHAINED or DECLARED plus its preference.
+        Preference of each unknown to remain: its preference as a state, plus DECLARED.
     substitutes : dict of int to int, optional
-        Residuals that remove no unknown, and the residual that takes the place of each if it is redundant.
+        Residuals that remove no unknown, and the residual that replaces each if it is redundant.
     units : sequence of Dimension or None, optional
-        Unit of each unknown, None where it is not known; default: all are alike.
+        Unit of each unknown, None if unknown; default: all equal.
     stay : collection of int, optional
-        Unknowns that are not removed and take no place in a chain.
+        Unknowns that are neither removed nor merged into a derivative chain.
     """
 
     def __init__(
         self,
-        tape: Tape,
+        linear: LinearValues,
         derivative: list[int],
         rank: list[int],
         substitutes: dict[int, int] | None = None,
         units: Sequence[Dimension | None] = (),
         stay: Collection[int] = (),
     ) -> None:
-        self.tape = tape
+        self.linear = linear
         self.units = units or [None] * len(derivative)
         self.substitutes = substitutes or {}
         self.stay = stay
@@ -89,13 +89,13 @@ class Simplifier:
             if upper >= 0:
                 self.down[upper] = lower
         self.rank = rank
-        self.result = Simplification(self.up, rank, tape.solved)
+        self.result = Simplification(self.up, rank, linear.solved)
         self.extra: list[tuple[Linear, Source]] = []
         self.done: set[int] = set(self.substitutes.values())
 
     def run(self) -> Simplification:
-        """Propagate until nothing changes."""
-        queue = list(range(len(self.tape.residual)))
+        """Propagate until nothing changes; return the result."""
+        queue = list(range(len(self.linear.residual)))
         while queue:
             for row in sorted(set(queue)):
                 if row not in self.done:
@@ -105,9 +105,9 @@ class Simplifier:
                 value, source = self.extra.pop()
                 if not self._derived(value, source):
                     left.append((value, source))
-            # What becomes known later may let them remove an unknown.
+            # Later eliminations may enable these derivatives to remove an unknown.
             self.extra = left
-            queue = self.tape.update()
+            queue = self.linear.update()
         self.result.left = [(value, source) for value, source in self._settled(self.extra) if value[1]]
         kept = self._settled([(value, Source(row)) for row, value in self.result.kept.items()])
         self.result.kept = {source.row: value for value, source in kept if value[1]}
@@ -115,14 +115,14 @@ class Simplifier:
         return self.result
 
     def _settled(self, values: list[tuple[Linear, Source]]) -> list[tuple[Linear, Source]]:
-        """Write values in unknowns that remain, and note contradictions."""
-        found = [(self.tape.resolve(value), source) for value, source in values]
+        """Return values in remaining unknowns, and record contradictions."""
+        found = [(self.linear.resolve(value), source) for value, source in values]
         self.result.contradictions += [(source, v[0]) for v, source in found if not v[1] and abs(v[0]) > ZERO]
         return found
 
     def _derived(self, value: Linear, source: Source) -> bool:
-        """Use the derivative of a residual to remove an unknown; False if it has to stay."""
-        value = self.tape.resolve(value)
+        """Use the derivative of a residual to remove an unknown; return False if it must remain as an equation."""
+        value = self.linear.resolve(value)
         if not value[1]:
             if abs(value[0]) > ZERO:
                 self.result.contradictions.append((source, value[0]))
@@ -132,8 +132,8 @@ class Simplifier:
         return self._assign(value, source)
 
     def _visit(self, row: int) -> None:
-        value = self.tape.value[self.tape.residual[row]]
-        value = self.tape.resolve(value) if value is not None else None
+        value = self.linear.value[self.linear.residual[row]]
+        value = self.linear.resolve(value) if value is not None else None
         if value is None:
             return
         if not value[1]:
@@ -149,10 +149,10 @@ class Simplifier:
             self.done.add(row)
 
     def _assign(self, value: Linear, source: Source) -> bool:
-        """Use `value == 0`, a residual or its derivative, to remove an unknown; False if none may be removed."""
+        """Use `value == 0`, a residual or its derivative, to remove an unknown; return False if none may be removed."""
         c0, terms = value
         pivots = [term for term in terms if self._may_divide(term, terms)]
-        candidates = sorted(pivots, key=lambda term: (self._standing(term[0]), -term[0]))
+        candidates = sorted(pivots, key=lambda term: (self._preference(term[0]), -term[0]))
         for unknown, c in candidates:
             rest = tuple((u, k) for u, k in terms if u != unknown)
             solution = scale((c0, rest), -1 / c)
@@ -162,17 +162,17 @@ class Simplifier:
                     self.result.used[source.row] = unknown
                 return True
         if len(terms) == 1 and not source.unknowns:
-            # The derivative of an unknown is constant: others may know, but the chain needs the unknown itself.
+            # A constant derivative: other equations may use its value, but the derivative chain needs the unknown.
             self.result.kept[source.row] = value
             return True
         return False
 
     def _may_divide(self, term: tuple[int, float], terms: tuple[tuple[int, float], ...]) -> bool:
-        """True if the coefficient of a term is not small beside those of unknowns of the same unit."""
+        """Return whether the coefficient of a term is not small relative to those of unknowns of the same unit."""
         unit = self.units[term[0]]
         return all(abs(term[1]) >= PIVOT * abs(c) for other, c in terms if self.units[other] == unit)
 
-    def _standing(self, unknown: int) -> int:
+    def _preference(self, unknown: int) -> int:
         chained = self.up[unknown] >= 0 or self.down[unknown] >= 0
         return (10 * CHAINED if chained else 0) + self.rank[unknown]
 
@@ -187,9 +187,9 @@ class Simplifier:
         if self._same_chain(unknown, other) or (chained and other in self.stay):
             return False
         if self.down[unknown] >= 0:
-            # The other one takes over as the derivative.
+            # The other unknown replaces it as the derivative.
             return c == 1 and c0 == 0 and self.down[other] < 0
-        # A derivative of the removed one must have a counterpart.
+        # A derivative of the removed unknown needs a counterpart.
         return self.up[unknown] < 0 or self.up[other] >= 0
 
     def _same_chain(self, a: int, b: int) -> bool:
@@ -201,8 +201,8 @@ class Simplifier:
         return unknown
 
     def _replace(self, unknown: int, solution: Linear, source: Source) -> None:
-        self.tape.solve(unknown, solution)
-        self.result.givers[unknown] = source
+        self.linear.solve(unknown, solution)
+        self.result.eliminated_by[unknown] = source
         upper, lower = self.up[unknown], self.down[unknown]
         self.up[unknown] = self.down[unknown] = -1
         other, c = solution[1][0] if solution[1] else (-1, 0.0)

@@ -1,4 +1,4 @@
-"""Spanning tree of the over-determined connectors: where their records are rooted, and where loops are cut."""
+"""Spanning tree of the over-determined connectors: roots of their records, and cuts of loops."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from acausal.language.connection import Branch, Connect, Root
 
 @dataclass(frozen=True)
 class Cut:
-    """A connection that closes a loop.
+    """A connection that closes a loop, left out of the spanning tree.
 
     Parameters
     ----------
     statement : Connect
         The connection.
     where : str
-        File and line.
+        File and line of the connection.
     loop : tuple of Component
         Components that the loop passes through, from one side of the cut to the other.
     """
@@ -34,10 +34,10 @@ class Cut:
 
 
 class _Tree:
-    """Spanning tree of least weight (Prim 1957), grown from the roots: branches, which cannot be cut, come first, then the
-    connections stated deepest in the tree of parts, and among these the nearest to the root.
+    """Minimum spanning tree (Prim 1957), grown from the roots.
 
-    So a loop is cut where the outermost component on it is connected: between parts wherever it passes through several.
+    Branches, which cannot be cut, come first, then the connections stated deepest in the tree of parts, and among these
+    the nearest to the root. So a loop is cut at a connection of the outermost component that it passes through.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class _Tree:
         self.waiting: list[tuple[int, int, Connector, Connector, Connect]] = []
 
     def enter(self, node: Connector) -> None:
-        """Reach a node and everything that branches tie to it."""
+        """Add a node, and all nodes joined to it by branches."""
         stack = [node]
         self.reached.add(id(node))
         while stack:
@@ -81,7 +81,7 @@ class _Tree:
                 stack.append(there)
 
     def grow(self) -> None:
-        """Reach all that is connected to what is reached."""
+        """Add all nodes that are connected to the tree."""
         while self.waiting:
             *_, here, there, statement = heappop(self.waiting)
             if id(there) not in self.reached:
@@ -90,7 +90,7 @@ class _Tree:
                 self.enter(there)
 
     def loop(self, cut: Connect) -> tuple[Component, ...]:
-        """Components between the two sides of a cut, along the tree."""
+        """Return the components between the two sides of a cut, along the tree."""
         up, down = self._ancestors(cut.a), self._ancestors(cut.b)
         while up and down and up[-1] is down[-1]:
             up.pop()
@@ -111,14 +111,14 @@ def spanning_tree(
     branches: list[Branch],
     roots: list[Root],
 ) -> tuple[list[Cut], list[Connector]]:
-    """Span the over-determined connectors from the roots; branches are never cut.
+    """Return the cuts and chosen roots of a spanning tree of the over-determined connectors.
 
     Returns
     -------
     cuts : list of Cut
-        The connections that close a loop.
+        Connections that close a loop.
     chosen : list of Connector
-        The potential roots that were needed.
+        Potential roots that were needed.
     """
     nodes = [c for c in connectors if type(c).residual is not Connector.residual]
     tree = _Tree(nodes, connects, branches)
@@ -136,8 +136,8 @@ def spanning_tree(
     lost: list[Any] = [n for n in nodes if id(n) not in tree.reached]
     if lost:
         raise ConnectError(
-            f"{_owner_of(lost[0])}: {lost[0]._path} is connected neither to a root such as the World nor to a body that "
-            f"can move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
+            f"{_owner_of(lost[0])}: {lost[0]._path} is connected neither to a root such as the World nor to a body "
+            f"that can move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
         )
     cut = [(c, where) for _, c, where in connects if id(c.a) in tree.links and id(c) not in tree.used]
     return [Cut(c, where, tree.loop(c)) for c, where in cut], chosen

@@ -1,4 +1,4 @@
-"""What a structural parameter may be: of its class, one of its choices, within its bounds."""
+"""Checks of structural parameters: class, choices and bounds."""
 
 from __future__ import annotations
 
@@ -13,33 +13,33 @@ from acausal.flatten.origin import Origin, with_place
 from acausal.language import data
 from acausal.language import fields as f
 from acausal.language.component import Component
-from acausal.language.values import shown_or_kind
+from acausal.language.value_checks import shown_or_kind
 
 
 def structural_value(bound: Component, declared: f.Structural, given: Any, where: str) -> Any:
-    """Return the value of a structural parameter as the component uses it.
+    """Return the checked value of a structural parameter.
 
     Parameters
     ----------
     bound : Component
-        Under construction, with the structural parameters that bounds depend on.
+        Component under construction, with the structural parameters on which bounds depend.
     declared : Structural
-        The field.
+        Declaration of the field.
     given : object
-        As it is given; the name of a file stands for what the class of the field loads from it.
+        Value from the user; the name of a file is replaced by its content if the class of the field loads files.
     where : str
-        What it is the value of, for messages.
+        Name of the field, for messages.
 
     Raises
     ------
     DeclarationError
-        If it cannot be of this field.
+        If the value is invalid for the field.
     """
     value: Any = given.item() if isinstance(given, np.generic) else given
     if is_symbolic(value):
         raise DeclarationError(
             f"{where} is structural, fixed when the model is compiled: it cannot depend on {value!r}, which may change "
-            "later. Give numbers, or declare the parameter that it follows from by structural(...)."
+            "later. Give numbers, or declare the parameter on which it depends structural(...)."
         )
     if declared.choices is not None:
         shape = declared.shape
@@ -59,7 +59,7 @@ def structural_value(bound: Component, declared: f.Structural, given: Any, where
 
 
 def _out_of_bounds(value: Any, declared: f.Structural, most: float | None) -> str:
-    """Say what a number must be instead, "" if it is right."""
+    """Return the words for a valid number, "" if the value is valid."""
     least, is_number = declared.minimum, data.fits(value, float)
     if least is not None and not (is_number and value >= least):
         return f"a number of at least {least:g}"
@@ -69,20 +69,20 @@ def _out_of_bounds(value: Any, declared: f.Structural, most: float | None) -> st
 
 
 def largest(bound: Component, declared: f.Structural) -> float | None:
-    """Return the largest value that a structural parameter may have, None where there is none."""
+    """Return the largest allowed value of a structural parameter, or None."""
     most: Any = declared.maximum
     return with_place(lambda: most(bound), Origin.of(bound, f"maximum of {declared.name}")) if callable(most) else most
 
 
 def one_of(choices: tuple[Any, ...]) -> str:
-    """Write choices for a message."""
+    """Return the text of the choices for a message."""
     if choices and all(isinstance(c, bool) for c in choices):
         return " or ".join(map(repr, choices))
     return f"one of {', '.join('a function' if c is callable else shown_or_kind(c) for c in choices)}"
 
 
 def _of_class(value: Any, declared: f.Structural, where: str) -> Any:
-    """Return a value of the class of a field, read from a file where the class reads one."""
+    """Return a value of the class of a field, loaded from a file if its name is given."""
     cls: Any = declared.cls
     try:
         found = data.read(value, cls)
@@ -90,7 +90,9 @@ def _of_class(value: Any, declared: f.Structural, where: str) -> Any:
         raise DeclarationError(f"{where}: {error}") from None
     except (OSError, ValueError, KeyError, EOFError) as error:
         why = getattr(error, "strerror", None) or str(error)
-        raise DeclarationError(f"{where}: {os.fspath(value)!r} holds no {cls.__name__}: {why.rstrip('.')}.") from error
+        raise DeclarationError(
+            f"{where}: {os.fspath(value)!r} contains no {cls.__name__}: {why.rstrip('.')}."
+        ) from error
     if not data.fits(found, cls):
         wanted = data.expected(cls, optional=declared.default is None)
         raise DeclarationError(f"{where} is {_written(found)}; it must be {wanted}.")
@@ -98,7 +100,7 @@ def _of_class(value: Any, declared: f.Structural, where: str) -> Any:
 
 
 def _is(value: Any, choice: Any) -> bool:
-    """Whether a value is a choice; arrays are none, and `callable` stands for any function."""
+    """Return whether a value equals a choice; an array does not, and `callable` stands for any function."""
     if choice is callable:
         return callable(value) and not isinstance(value, type)
     return value is choice or (np.ndim(value) == 0 and data.same(value, choice))

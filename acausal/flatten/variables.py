@@ -1,4 +1,4 @@
-"""Give every bound component the symbols of its variables; connected potentials share one symbol."""
+"""Creation of the symbols of all variables; connected potentials share one symbol."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import shape_of, unit_of
+from acausal.flatten.component_tree import join, walk
+from acausal.flatten.field_values import shape_of, unit_of
 from acausal.flatten.numeric import misshapen
 from acausal.flatten.origin import value_origin, with_place
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
@@ -28,7 +28,8 @@ from acausal.units import Dimension
 class VariableArray:
     """A declared variable with its symbols and attributes, entries in column-major order.
 
-    `fixed` and `guessed` tell of each entry whether its start value holds, and whether it is given with the component.
+    An entry is `fixed` if its start value is an initial condition, and `guessed` if the value is given with the
+    component.
     """
 
     path: str
@@ -43,18 +44,18 @@ class VariableArray:
 
     @property
     def units(self) -> list[Dimension | None]:
-        """Unit of each entry, None where it is not known."""
+        """Unit of each entry, None if unknown."""
         n, unit = self.expr.sx.numel(), self.expr.unit
         return list(unit) * (n // max(1, len(unit))) if isinstance(unit, tuple) else [unit] * n
 
     @property
-    def said(self) -> str:
-        """File and line where its start value is given: with the component, or in its class."""
+    def start_line(self) -> str:
+        """File and line of the start value: of the component, or of its class."""
         is_given = self.path.rpartition(".")[2] in self.owner._values
         return self.owner._origin if is_given else self.declared.where
 
     def conditions(self) -> list[tuple[ca.SX, str]]:
-        """Return the residual and the text of each start value that holds."""
+        """Return the residual and the text of each fixed start value."""
         if not any(self.fixed):
             return []
         residuals, starts = scalars(vec(self.expr.sx - self.start.sx)), scalars(self.start.sx)
@@ -63,7 +64,7 @@ class VariableArray:
 
     @cached_property
     def names(self) -> list[str]:
-        """Names of the entries in the user's words."""
+        """Names of the entries."""
         shape = self.expr.shape
         if not shape:
             return [self.path]
@@ -71,7 +72,7 @@ class VariableArray:
 
 
 def create_variables(components: list[Component], same: list[tuple[Connector, ...]]) -> list[VariableArray]:
-    """Create the symbols of all components and set them as attributes."""
+    """Create the symbols of all variables and set them as attributes of their components."""
     arrays: list[VariableArray] = []
     inside: set[int] = set()
     for group in same:
@@ -86,7 +87,7 @@ def create_variables(components: list[Component], same: list[tuple[Connector, ..
 
 
 def _connectors(group: tuple[Connector, ...], is_root: bool, arrays: list[VariableArray]) -> None:
-    """Give a set of connected connectors common potentials, and each its own flows."""
+    """Create common potentials of connected connectors, and separate flows."""
     for others in zip(*(_members(c) for c in group), strict=True):
         lead = others[0]
         for name, declared in lead.fields.items():
@@ -141,9 +142,9 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
 def _entries(
     start: f.InitialValue, of_class: f.InitialValue, expr: Expr
 ) -> tuple[Any, tuple[bool, ...], tuple[bool, ...]]:
-    """Return a start value, and of each entry whether it holds and whether it is given; None is that of the class."""
+    """Return a start value, and for each entry whether it is fixed and whether it is given; None is the class value."""
     n, value = expr.sx.numel(), start.value
-    if len(expr.shape) != 1 or not isinstance(value, list | tuple) or not any(map(_is_apart, value)):
+    if len(expr.shape) != 1 or not isinstance(value, list | tuple) or not any(map(_is_special, value)):
         return value, (start.fixed,) * n, (start is not of_class,) * n
     if len(value) != n:
         raise DeclarationError(misshapen(f"start of `{expr.name}`", value, (len(value),), expr.shape))
@@ -158,8 +159,8 @@ def _entries(
     return [e.value for e in entries], tuple(e.fixed for e in entries), tuple(entry is not None for entry in value)
 
 
-def _is_apart(entry: Any) -> bool:
-    """True if an entry of a start value is not like the others: it is left open, or a guess beside fixed ones."""
+def _is_special(entry: Any) -> bool:
+    """Return whether an entry of a start value is special: None, fixed(...) or guess(...)."""
     return entry is None or isinstance(entry, f.InitialValue)
 
 
@@ -170,7 +171,7 @@ def _filled(value: float, shape: tuple[int, ...]) -> Expr:
 
 
 def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr:
-    """Return the value as an expression of the given shape and unit; one number fills an array."""
+    """Return the value as an expression of the given shape and unit; a number fills an array."""
     path = variable.name
     if callable(value):
         raise DeclarationError(f"{what} of `{path}` must be a value, not a function.")

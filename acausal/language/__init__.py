@@ -1,8 +1,8 @@
-"""The language: what users write models with."""
+"""Modelling language: classes, fields, statements and functions of expressions."""
 
 import copyreg
 
-from acausal.language import shipped
+from acausal.language import pickling
 from acausal.language.component import Component, Connector, Model, Path, Record
 from acausal.language.condition import Condition
 from acausal.language.connection import (
@@ -32,7 +32,6 @@ from acausal.language.declare import (
     structural,
     variable,
 )
-from acausal.language.events import When, reinit, when
 from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
@@ -57,17 +56,18 @@ from acausal.language.functions import (
     time,
 )
 from acausal.language.initial_values import fixed, guess
-from acausal.language.set_valued import SetValued, set_valued
+from acausal.language.numpy_functions import numpy_functions
+from acausal.language.set_valued_statement import SetValued, set_valued
 from acausal.language.soft import Soft, soft
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
-from acausal.language.symbolic import TWINS
-from acausal.language.twins import twins
+from acausal.language.symbolic import NUMPY_FUNCTIONS
 from acausal.language.types import Matrix33, Scalar, Vector3
-from acausal.language.validity import Expectation, Requirement, Separation, apart, expect, require
+from acausal.language.validity_statements import Expectation, Requirement, Separation, apart, expect, require
+from acausal.language.when_statements import When, reinit, when
 
-# What expressions need of modules that are made of expressions.
-copyreg.pickle(Expr, shipped.reduced)
-TWINS.update(twins())
+# Registered here because these modules import the class of expressions.
+copyreg.pickle(Expr, pickling.reduce_expression)
+NUMPY_FUNCTIONS.update(numpy_functions())
 
 __all__ = [
     "ALWAYS",

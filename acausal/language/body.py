@@ -1,4 +1,4 @@
-"""What a class body declares: new fields, parts in any form, and new values of inherited fields."""
+"""Reading of class bodies: new fields, parts, and new values of inherited fields."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from typing import Any
 
 from acausal.errors import AcausalError, DeclarationError, user_line
 from acausal.language import fields as f
-from acausal.language.checks import check_field
+from acausal.language.field_checks import check_field
+from acausal.language.invalid_settings import refuse_misspelt_fields
+from acausal.language.misspelt_fields import SETTABLE
 from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
-from acausal.language.refusals import refuse_slips
-from acausal.language.slips import SETTABLE
-from acausal.language.source import body_line
+from acausal.language.source_code import body_line
 from acausal.language.types import shape_of_annotation
-from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class, shown
+from acausal.language.value_checks import check_value, holds_parts, instance, instances, is_part_class, shown
 
 _ABSENT: Any = object()
 
 
 def read_body(cls: Any) -> None:
-    """Give a class its `fields`, those of its bases and its own, and new values of inherited fields.
+    """Set the `fields` of a class, inherited and own ones, and its new values of inherited fields.
 
     Parameters
     ----------
     cls : Component class
-        A class whose body was executed.
+        Class whose body was executed.
     """
     fields: dict[str, f.Field] = {}
     settings: dict[str, Any] = {}
@@ -39,22 +39,22 @@ def read_body(cls: Any) -> None:
             plain = {name: v for name, v in plain.items() if name not in vars(base)["_own_fields"]}
         else:
             plain.update(vars(base))
-    # The values of a base that is not a component count as if they were declared here.
-    said = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
+    # Values of a base class that is no component count as values of this class body.
+    body = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
     refuse_names(cls, vars(cls))
     own: dict[str, f.Field] = {}
     new: dict[str, Any] = {}
     cls._own_fields, cls._own_values, cls.fields = own, new, fields
-    for name, value in said.items():
+    for name, value in body.items():
         if not name.startswith("__"):
             try:
                 _read(cls, name, value, fields.get(name), own, new)
             except AcausalError as error:
                 error.line = body_line(cls, name)
                 raise
-    refuse_slips(cls, {**plain, **vars(cls), **own}, fields)
-    for name in said.keys() & inspect.get_annotations(cls).keys() - fields.keys():
-        refuse_plain(cls, name, said[name])
+    refuse_misspelt_fields(cls, {**plain, **vars(cls), **own}, fields)
+    for name in body.keys() & inspect.get_annotations(cls).keys() - fields.keys():
+        refuse_plain(cls, name, body[name])
     for name, field in own.items():
         if field.shape is None and not isinstance(field, f.Part | f.Outer):
             field.shape = shape_of_annotation(cls, name)
@@ -66,38 +66,40 @@ def read_body(cls: Any) -> None:
 
 
 def refuse_late_fields(cls: Any) -> None:
-    """Raise DeclarationError for what was set on a class, or one of its bases, after it was made: nothing reads it."""
+    """Raise DeclarationError for attributes set on a class, or a base, after its creation: they have no effect."""
     for base in (base for base in cls.__mro__ if "_as_read" in vars(base)):
         late = {n: v for n, v in vars(base).items() if n[0] != "_" and base._as_read.get(n, _ABSENT) is not v}
         for name, value in late.items():
             if name in base.fields or isinstance(value, f.Field) or holds_parts(value):
-                mend = f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
-                raise DeclarationError(
-                    f"{base.__name__}.{name} = {shown(value)} was set after the class was created, which changes no model. "
-                    f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
+                remedy = (
+                    f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
                 )
-        refuse_slips(base, late, base.fields)
+                raise DeclarationError(
+                    f"{base.__name__}.{name} = {shown(value)} was set after the class was created, and has no effect. "
+                    f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {remedy}."
+                )
+        refuse_misspelt_fields(base, late, base.fields)
     refuse_annotations(cls)
 
 
 def _read(
     cls: Any, name: str, value: Any, old: f.Field | None, own: dict[str, f.Field], settings: dict[str, Any]
 ) -> None:
-    """Read one attribute of a class body; `old` is the inherited field of this name."""
+    """Read one attribute of a class body; `old` is the inherited field of that name."""
     where = f"{cls.__name__}.{name}"
     if any(isinstance(getattr(value, inner, None), f.Field) for inner in ("__func__", "fget", "func")):
-        raise DeclarationError(f"{where}: leave out @{type(value).__name__}: its mark stands alone above the method.")
+        raise DeclarationError(f"{where}: remove @{type(value).__name__}: a field needs no other decorator.")
     second = isinstance(value, f.Field) and _is_second_name(cls, value, name, own)
     if second and old is None and name in cls._settings and name not in SETTABLE:
-        return  # a setting that follows from a field
+        return  # a setting of the model that equals a field
     if isinstance(value, f.Field) and (value.name == name or not _has_value(old)):
         own[name] = value if value.name == name and value is not old else _named(copy(value), name)
         setattr(cls, name, own[name])
         if second and _has_value(value):
-            settings[name] = value  # the value of the first one, unless it has its own
+            settings[name] = value  # the value of the first field, unless it gets its own
     elif isinstance(value, f.Template):
         own[name] = f.Part("", make=value, is_port=value._is_port, name=name)
-        # A template gets its name from the class: under a second name it is a second one.
+        # A template gets its name from the class: a second name needs a copy.
         twice = any(v is value for base in cls.__mro__ for n, v in vars(base).items() if n != name)
         setattr(cls, name, copy(value) if twice else value)
     elif is_part_class(value) and (isinstance(old, f.Part) or _stands_for_a_part(cls, name, value)):
@@ -109,22 +111,22 @@ def _read(
         setattr(cls, name, own[name])
     elif name[0] != "_" and (holds_parts(value) or isinstance(value, GeneratorType)):
         raise DeclarationError(
-            f"{where} is a {type(value).__name__}; parts are named one by one, or stand in a list: "
-            f"`{name} = [Body(m=1), Body(m=2)]`, whose paths are `{name}[0]`, `{name}[1]`."
+            f"{where} is a {type(value).__name__}; declare parts one by one, or in a list: "
+            f"`{name} = [Body(m=1), Body(m=2)]`, with the paths `{name}[0]`, `{name}[1]`."
         )
     elif isinstance(old, f.Part):
         own[name] = _part_instead(where, name, value, old)
         setattr(cls, name, own[name])
     elif old is not None:
         if isinstance(value, FunctionType | property | staticmethod | classmethod) and not _is_default(value, old):
-            mark = "@observed" if isinstance(old, f.Observed) else "a name of its own"
-            raise DeclarationError(f"{where} is a field of {cls.__name__}; give this method {mark}.")
+            remedy = "decorate this method with @observed" if isinstance(old, f.Observed) else "rename this method"
+            raise DeclarationError(f"{where} is a field of {cls.__name__}; {remedy}.")
         settings[name] = check_value(cls, name, value)
-        setattr(cls, name, copy(old))  # a path is read through it, as through the inherited one
+        setattr(cls, name, copy(old))  # it returns paths, as the inherited field does
 
 
 def _is_second_name(cls: Any, field: f.Field, name: str, own: dict[str, f.Field]) -> bool:
-    """Whether a field stands under another name in the class already."""
+    """Return whether a field already has another name in the class."""
     return field.name != name and any(known.get(field.name) is field for known in (own, cls.fields))
 
 
@@ -133,7 +135,7 @@ def _has_value(field: f.Field | None) -> bool:
 
 
 def _is_default(value: Any, old: f.Field) -> bool:
-    """Whether a function computes the value of a field, as `default=` takes one."""
+    """Return whether a value is a function for the default of a field, as in `default=`."""
     return isinstance(value, FunctionType) and isinstance(old, f.Parameter | f.Structural)
 
 
@@ -143,9 +145,9 @@ def _named(field: f.Field, name: str) -> f.Field:
 
 
 def _stands_for_a_part(cls: Any, name: str, value: Any) -> bool:
-    """Whether `joint = Prismatic` means a part.
+    """Return whether a class in a class body, such as `joint = Prismatic`, declares a part.
 
-    It does not for a class that is defined here, a name like that of a class, and an attribute that is plain in a base
+    It does not if the class is defined in this body, if the name is capitalised, or if the attribute is plain in a base
     or annotated as a type.
     """
     here = value.__qualname__ == f"{cls.__qualname__}.{value.__name__}"
@@ -155,13 +157,13 @@ def _stands_for_a_part(cls: Any, name: str, value: Any) -> bool:
 
 
 def _part_instead(where: str, name: str, value: Any, old: f.Part) -> f.Part:
-    """What stands in place of an inherited part."""
+    """Return the part that replaces an inherited one."""
     if value is None:
         return f.Part(old.description, make=None, is_port=old.is_port, name=name)
     if isinstance(value, FunctionType):
         description = value.__doc__ or old.description
         return type(old)(description, make=value, many=old.many, is_port=old.is_port, name=name)
     raise DeclarationError(
-        f"{where} is a part; put a component in its place, `{name} = Body(m=1)`, or None to leave it out, "
+        f"{where} is a part; replace it by a component, `{name} = Body(m=1)`, or by None to remove it, "
         f"not {f'the class {value.__name__}' if isinstance(value, type) else shown(value)}."
     )

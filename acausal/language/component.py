@@ -1,4 +1,4 @@
-"""Component, Connector, Record and Model: templates in class bodies, bound instances when a model is built."""
+"""Component, Connector, Record and Model: templates in class bodies, bound instances in built models."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, cast, dataclass_transform
 from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import declare
 from acausal.language import fields as f
-from acausal.language.arguments import refused, told
 from acausal.language.body import read_body
+from acausal.language.call_arguments import checked_call, declaration_error
 from acausal.language.docstring import signature, with_fields
+from acausal.language.invalid_settings import refuse_attribute, refuse_value
+from acausal.language.misspelt_fields import SETTINGS
 from acausal.language.path import Path
-from acausal.language.refusals import refuse_attribute, refuse_value
 from acausal.language.signal import CONNECTING, Signal
-from acausal.language.slips import SETTINGS
-from acausal.language.values import check_value, refuse_decorator, unnamed_text, values_of_class
+from acausal.language.value_checks import check_value, class_keyword_message, positional_message, refuse_decorator
 
 
 class _Docstring:
-    """The `__doc__` of a component class, with sections for its fields that are made where it is read."""
+    """The `__doc__` of a component class: sections for its fields are generated on access."""
 
     def __init__(self, written: str) -> None:
         self.written = written
@@ -32,7 +32,7 @@ class _Docstring:
 
 
 class _Signature:
-    """The `__signature__` of a component class, computed where it is read: from its fields, or its own constructor's."""
+    """The `__signature__` of a component class, computed on access from its fields or its own constructor."""
 
     def __get__(self, owner: Any, cls: Any) -> inspect.Signature:
         if cls.__init__ is Component.__init__:
@@ -46,7 +46,7 @@ class _Signature:
     field_specifiers=(declare.structural, declare.effect, declare.parameter),
 )
 class Component(f.Template):
-    """A part of a machine: class fields for what it has, connections() for the graph, equations() for the physics.
+    """A part of a machine: fields in the class body, connections() for the graph, equations() for the physics.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Component(f.Template):
     Raises
     ------
     DeclarationError
-        If a name is not one of the fields, or a value cannot be of this field.
+        If a name is not that of a field, or a value is invalid for its field.
     """
 
     __signature__: ClassVar[Any] = _Signature()
@@ -79,7 +79,7 @@ class Component(f.Template):
     _is_bound = False
     _in_loop = False
 
-    @told
+    @checked_call
     def __init_subclass__(cls, **kwargs: Any) -> None:
         try:
             super().__init_subclass__(**kwargs)
@@ -87,32 +87,32 @@ class Component(f.Template):
             if not kwargs:
                 raise
             name, value = next(iter(kwargs.items()))
-            raise DeclarationError(values_of_class(cls, name, value)) from None
+            raise DeclarationError(class_keyword_message(cls, name, value)) from None
         read_body(cls)
         if cls.__doc__:
             cls.__doc__ = cast(Any, _Docstring(cls.__doc__))
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
-        """Refuse classes whose constructor a decorator has written: it would not know the fields."""
+        """Refuse classes whose constructor a decorator replaced: it does not know the fields."""
         refuse_decorator(cls)
         return super().__new__(cls)
 
-    @told
+    @checked_call
     def __init__(self, *unnamed: Any, **values: Any) -> None:
         if unnamed:
-            raise DeclarationError(unnamed_text(type(self), unnamed, values))
+            raise DeclarationError(positional_message(type(self), unnamed, values))
         self._origin = _constructed_at(self)
         self._values = {name: check_value(type(self), name, value) for name, value in values.items()}
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in self.fields or name in type(self).fields:
-            raise refused(refuse_value(self, name, value))
+            raise declaration_error(refuse_value(self, name, value))
         if name[0] != "_":
             refuse_attribute(self, name, value)
         object.__setattr__(self, name, value)
 
     def __get__(self, owner: Any, cls: type | None = None) -> Any:
-        """A part read through a template that is not built gives its path."""
+        """Return a part in a class, and its path in a template."""
         if owner is None:
             return self
         name = next(name for base in type(owner).__mro__ for name, value in vars(base).items() if value is self)
@@ -121,11 +121,11 @@ class Component(f.Template):
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            """Give the path of a port of a family in a template that is not built: only instances know the names."""
+            """Return the path of a port of a family in a template: only bound instances know their names."""
             families = any(isinstance(field, f.Family) for field in self.fields.values())
-            said = name in self._settings or any(name in vars(base) for base in type(self).__mro__)
-            if name[0] == "_" or said or self._is_bound or not families:
-                return object.__getattribute__(self, name)  # raises what is wrong
+            known = name in self._settings or any(name in vars(base) for base in type(self).__mro__)
+            if name[0] == "_" or known or self._is_bound or not families:
+                return object.__getattribute__(self, name)  # raises AttributeError
             return Path(name, None)
 
     def _member_path(self, name: str, member: Any) -> Any:
@@ -156,7 +156,7 @@ class Component(f.Template):
         yield from ()
 
     def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
-        """Yield pairs (variable, expression of its time derivative), which stands for what differentiation would give.
+        """Yield pairs (variable, expression of its time derivative), used instead of differentiation.
 
         An equation `variable == ...` then defines the variable, and is never differentiated.
         """
@@ -170,23 +170,23 @@ class Component(f.Template):
         yield from ()
 
     def validity(self) -> Iterator[Any]:
-        """Yield expect(...), what the component neglects, and apart(...), what must not meet in a run."""
+        """Yield expect(...) for neglected quantities, and apart(...) for points that must not coincide in a run."""
         yield from ()
 
     def stored_energy(self) -> Any:
-        """Energy in J that the component holds: kinetic, elastic and potential."""
+        """Return the stored energy in J: kinetic, elastic and potential."""
         return 0
 
     def dissipated_power(self) -> Any:
-        """Power in W that the component turns into heat, 0 or positive."""
+        """Return the dissipated power in W, 0 or positive."""
         return 0
 
     def supplied_power(self) -> Any:
-        """Power in W that the component brings into the model from outside."""
+        """Return the power in W that the component supplies to the model from outside."""
         return 0
 
     def shapes(self) -> Iterator[Any]:
-        """Yield what it looks like: kinds of `acausal.geometry`, and parts, which say it themselves; all parts by default."""
+        """Yield shapes of `acausal.geometry`, and parts, whose own shapes are drawn; by default all parts."""
         for name in [name for name, declared in self.fields.items() if isinstance(declared, f.Part)]:
             inside = getattr(self, name)
             for part in inside if isinstance(inside, list) else [inside]:
@@ -195,7 +195,7 @@ class Component(f.Template):
 
 
 def _constructed_at(component: Component) -> str:
-    """Return file and line of the call of a constructor, also from a constructor of the user's own."""
+    """Return file and line of the outermost call of a constructor, outside constructors of derived classes."""
     frame: Any = sys._getframe(1)
     while frame.f_back is not None and (
         frame.f_code.co_filename.startswith(PACKAGE)
@@ -216,24 +216,25 @@ class Connector(Component):
     _is_root = False
     _owner: Any = None
     _parents: tuple[Any, ...] = ()
-    _set: tuple[Any, ...] = ()  # what it is connected to, itself included
+    _set: tuple[Any, ...] = ()  # connected connectors, itself included
 
     def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
-        """Yield pairs (independent equations that make this record equal to the other one, flows that work on them).
+        """Yield pairs (independent equations for the equality with another record, flows that work on them).
 
-        Used where a loop is cut: where an equation is redundant, the flow that works on it is undetermined.
+        Loops are closed by these equations; the flow of a redundant one is undetermined.
         """
         yield from ()
 
     def power(self) -> Iterator[tuple[Any, Any]]:
         """Yield pairs (potential, flow) whose products are the power through the connector.
 
-        They tell which flow works on a constraint that a part states: where the constraint is redundant, it is undetermined.
+        They determine the flow that works on a constraint of a part, which is undetermined if the constraint is
+        redundant.
         """
         yield from ()
 
     def loop_kind(self, undetermined: tuple[str, ...]) -> str:
-        """Name a loop by the flows that its redundant equations leave undetermined, for reports."""
+        """Return the kind of a loop, from the flows that its redundant equations leave undetermined, for reports."""
         return "loop"
 
     def root_equations(self) -> Iterator[Any]:
@@ -245,14 +246,14 @@ class Connector(Component):
 
 
 class Record(Component):
-    """Variables that belong together, without physics of their own."""
+    """A group of variables without physics of its own."""
 
 
 class Model(Component):
     """A component that can be compiled and simulated; its outputs are the columns of its table of results.
 
     Attributes `stop_time`, `tolerance`, `accuracy`, `intervals`, `initial`, `method`, `constraints` and `max_order` are
-    what `simulate` takes where these are not given to it; they may follow from parameters: `stop_time = 2 * end`.
+    defaults of the arguments of `simulate`; they may depend on parameters: `stop_time = 2 * end`.
     """
 
     _settings = SETTINGS

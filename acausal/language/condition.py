@@ -1,4 +1,4 @@
-"""Conditions: comparisons of expressions, as piecewise and when take them."""
+"""Conditions of piecewise and when: comparisons of expressions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.language.written import in_code, short
+from acausal.language.formatting import in_code, short
 
 
 class Condition:
@@ -17,11 +17,11 @@ class Condition:
     Parameters
     ----------
     excess : Expr or field of a class body
-        A scalar.
+        Scalar, the event indicator.
     kind : "<" or "<="
         The relation.
     sides : (left, sign, right)
-        What is compared, for messages; () where that is not known.
+        Compared values, for messages; () if unknown.
     """
 
     def __init__(self, excess: Any, kind: str, sides: tuple[Any, ...] = ()) -> None:
@@ -30,12 +30,12 @@ class Condition:
         self.sides = sides
 
     def holds(self, excess: Any) -> Any:
-        """Whether it holds where its excess is a number, or entries of an array, or an expression."""
+        """Return whether the condition holds for an excess: a number, an array or an expression."""
         return excess < 0 if self.kind == "<" else excess <= 0
 
     @property
     def comparisons(self) -> list[Condition]:
-        """The comparisons that it is made of: itself, if it is not joined."""
+        """The comparisons of the condition: itself, if it is not joined."""
         return [self]
 
     def replaced(self, new: Callable[[Condition], Condition]) -> Condition:
@@ -49,7 +49,8 @@ class Condition:
 
     def _no_number(self, *_: Any) -> Any:
         raise DeclarationError(
-            "an inequality cannot be used as a number. For 1 where it holds and 0 elsewhere write piecewise((1, a < b), 0)."
+            "an inequality cannot be used as a number. For 1 where it holds and 0 elsewhere write "
+            "piecewise((1, a < b), 0)."
         )
 
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __pow__ = _no_number
@@ -78,27 +79,27 @@ class Condition:
 
 
 class Joined(Condition):
-    """Two conditions of which both must hold (`every`), or one.
+    """Conjunction (`every`) or disjunction of two conditions.
 
     Parameters
     ----------
     a, b : Condition
-        The two.
+        The conditions.
     every : bool
-        Whether both must hold.
+        True if both must hold, False if one is enough.
     """
 
     def __init__(self, a: Condition, b: Any, every: bool) -> None:
         if not isinstance(b, Condition):
             raise DeclarationError(
-                f"& and | join two conditions, each in brackets, such as (x > 0) & (v < 0), not one and {b!r}. What is known "
-                "when the model is built is decided by Python's `if`."
+                f"& and | join two conditions in parentheses, such as (x > 0) & (v < 0), but one operand is {b!r}. Use "
+                "Python's `if` for values that are known when the model is built."
             )
         self.a, self.b, self.every, self.sides = a, b, every, ()
 
     @property
     def excess(self) -> Any:  # type: ignore[override]
-        """The greater of both if both must hold, the lesser if one is enough; deferred as long as one of them is."""
+        """The maximum of both for a conjunction, the minimum for a disjunction; deferred as long as one of them is."""
         a, b = self.a.excess, self.b.excess
         for x in (a, b):
             if getattr(x, "is_deferred", False) is True:
@@ -109,13 +110,13 @@ class Joined(Condition):
 
     @property
     def kind(self) -> str:  # type: ignore[override]
-        """The relation; where the two differ, the narrower one for both, the wider one for either."""
+        """The relation; if the two differ, the strict one for a conjunction, the other one for a disjunction."""
         kinds = {self.a.kind, self.b.kind}
         return ("<" if self.every else "<=") if len(kinds) == 2 else self.a.kind
 
     @property
     def comparisons(self) -> list[Condition]:
-        """The comparisons that it is made of, from left to right."""
+        """The comparisons of the condition, from left to right."""
         return [*self.a.comparisons, *self.b.comparisons]
 
     def replaced(self, new: Callable[[Condition], Condition]) -> Condition:
@@ -127,16 +128,16 @@ class Joined(Condition):
 
 
 def undecided(what: str) -> str:
-    """Return the message for a value that Python should decide on while the model is built."""
+    """Return the message for an expression whose truth value Python needs while the model is built."""
     return (
         f"{what} is not known while the model is built, so `if`, `and`, `or`, max() and min() cannot use it. Write "
-        "piecewise((value, condition), ..., otherwise) or when(condition, ...), join conditions by & and |; where a parameter "
-        "decides which equations there are, declare it structural(...)."
+        "piecewise((value, condition), ..., otherwise) or when(condition, ...), and join conditions by & and |; "
+        "declare a parameter structural(...) if the equations depend on it."
     )
 
 
 def refuse_cases(cases: tuple[Any, ...]) -> None:
-    """Raise DeclarationError for what is no piecewise: pairs (value, condition), and at last the value otherwise."""
+    """Raise DeclarationError unless the cases are pairs (value, condition) followed by the value otherwise."""
     form = "piecewise((value, condition), ..., otherwise)"
     if not cases:
         raise DeclarationError(f"piecewise() is empty: write {form}.")
@@ -144,28 +145,28 @@ def refuse_cases(cases: tuple[Any, ...]) -> None:
         raise DeclarationError(f"the cases of piecewise are given one by one, not as a list: {form}.")
     for case in cases[:-1]:
         if not isinstance(case, tuple | list) or len(case) != 2:
-            raise DeclarationError(f"a case of piecewise is a pair in brackets, {form}, and {_shown(case)} is none.")
+            raise DeclarationError(
+                f"a case of piecewise is a pair (value, condition), but {_shown(case)} is not: {form}."
+            )
         value, condition = case
         if isinstance(value, Condition):
             raise DeclarationError(f"a case of piecewise is (value, condition), in this order: {form}.")
         if isinstance(condition, bool):
             raise DeclarationError(
-                f"a condition of piecewise is {condition}: it is decided when the model is built, without a variable. Write "
-                "Python's `a if condition else b`, or compare variables: time < 1."
+                f"a condition of piecewise is {condition}: it is known when the model is built, and contains no "
+                "variable. Write Python's `a if condition else b`, or compare variables: time < 1."
             )
         if not isinstance(condition, Condition):
-            what = "an equation, not a condition" if type(condition).__name__ == "Equation" else "no condition"
+            what = "an equation, not a condition" if type(condition).__name__ == "Equation" else "not a condition"
             raise DeclarationError(
-                f"{_shown(condition)} is {what}: a condition of piecewise compares two scalars by <, <=, > or >=, such as "
-                "time < 1."
+                f"{_shown(condition)} is {what}: a condition of piecewise compares two scalars by <, <=, > or >=, "
+                "such as time < 1."
             )
         if getattr(condition.excess, "shape", ()) and not getattr(condition.excess, "is_deferred", False):
             raise DeclarationError("a condition of piecewise compares two scalars; an entry of a vector is v[0].")
     last = cases[-1]
     if isinstance(last, Condition) or (isinstance(last, tuple | list) and any(isinstance(c, Condition) for c in last)):
-        raise DeclarationError(
-            f"piecewise lacks the value that it has where no condition holds, its last argument: {form}."
-        )
+        raise DeclarationError(f"piecewise lacks its last argument, the value if no condition holds: {form}.")
 
 
 def _shown(value: Any) -> str:

@@ -1,4 +1,4 @@
-"""Statements of connections(): what is joined, and how over-determined records are rooted."""
+"""Statements of connections(): connections, and branches and roots of over-determined records."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from acausal.errors import ConnectError
-from acausal.language.arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
 from acausal.language.fields import Field
@@ -15,14 +15,12 @@ from acausal.language.path import Path
 from acausal.language.pending import PENDING
 from acausal.language.signal import Signal, Wire
 
-NOTHING = (
-    "A port that an option adds is None without it: give the part that option, such as Revolute(use_axis_flange=True)."
-)
+OPTIONAL = "An optional port is None unless its option is set, such as Revolute(use_axis_flange=True)."
 
 
 @dataclass(frozen=True, eq=False)
 class Connect:
-    """Two ports are one point."""
+    """Connection of two ports."""
 
     a: Connector
     b: Connector
@@ -30,7 +28,7 @@ class Connect:
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """The component states how the record of `b` follows from that of `a` and back."""
+    """Relation between the records of two connectors of a component, stated by its equations."""
 
     a: Connector
     b: Connector
@@ -38,20 +36,20 @@ class Branch:
 
 @dataclass(frozen=True, eq=False)
 class Root:
-    """The component defines the record of this connector; priority None: it always does."""
+    """Connector whose record the component defines; always if the priority is None, else if it is chosen."""
 
     connector: Connector
     priority: int | None = None
 
 
-@told
+@checked_call
 def connect(a: Any, b: Any) -> Connect | Wire:
-    """Join two ports: potentials become equal, flows sum to zero. Or give an output to an input.
+    """Connect two ports: potentials become equal, flows sum to zero. Or connect an output to an input.
 
     Raises
     ------
     ConnectError
-        If one of them is neither a port nor a signal, or their classes differ.
+        If an argument is neither a port nor a signal, or the classes differ.
     """
     if any(isinstance(end, Signal) for end in (a, b)) and all(isinstance(end, Signal | Expr) for end in (a, b)):
         return Wire(a, b)
@@ -66,62 +64,62 @@ def connect(a: Any, b: Any) -> Connect | Wire:
     return Connect(a, b)
 
 
-@told
+@checked_call
 def chain(*items: Any) -> list[Connect | Wire]:
-    """Join each part's second end to the next one's first end.
+    """Connect the second end of each part to the first end of the next one.
 
     Parameters
     ----------
     *items : Component or Connector
-        Parts in order; a port may stand for a part at either end.
+        Parts in order; a port may replace a part.
     """
     if len(items) < 2:
         raise ConnectError("chain() joins at least two parts.")
     for place, item in enumerate(items, 1):
-        _refuse_no_link(item, place)
+        _check_link(item, place)
     return [connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)]
 
 
-@told
+@checked_call
 def branch(a: Any, b: Any) -> Branch:
     """State that the component relates the over-determined records of two of its connectors."""
     return Branch(_port(a, "branch"), _port(b, "branch"))
 
 
-@told
+@checked_call
 def root(connector: Any) -> Root:
     """State that the component defines the over-determined record of this connector."""
     return Root(_port(connector, "root"))
 
 
-@told
+@checked_call
 def potential_root(connector: Any, priority: int = 0) -> Root:
-    """State that the connector can be a root where no other is reached; the lowest priority is chosen first."""
+    """State that the connector can be a root if no other root is reached; the lowest priority is chosen first."""
     return Root(_port(connector, "potential_root"), priority)
 
 
-@told
+@checked_call
 def is_root(connector: Any) -> bool:
     """Return, in equations(), whether the connector was chosen as a root."""
     return connector._is_root
 
 
-@told
+@checked_call
 def rooted(a: Any, b: Any | None = None) -> bool:
-    """Return, in equations(), whether `a` is nearer to the root than the other end of its branch (than `b`)."""
+    """Return, in equations(), whether `a` is nearer to the root than `b`, or than the other end of its branch."""
     if b is not None:
         return a in b._parents
     return not any(parent._owner is a._owner for parent in a._parents)
 
 
-@told
+@checked_call
 def connected(port: Any) -> tuple[Component, ...]:
     """Return, in equations() and validity(), the other components whose ports are connected to a port."""
     owners = (other._owner for other in port._set if other._owner is not port._owner)
     return tuple(owner for owner in owners if owner is not None)
 
 
-@told
+@checked_call
 def in_loop(component: Any) -> bool:
     """Return, in equations(), whether the component is part of a closed loop of over-determined records."""
     return component._in_loop
@@ -129,7 +127,7 @@ def in_loop(component: Any) -> bool:
 
 def _port(item: Any, word: str) -> Connector:
     """Return a port of a built model, or raise ConnectError."""
-    _refuse_outsider(item)
+    _refuse_unbuilt(item)
     if not isinstance(item, Connector):
         what = {"connect": "joins two ports", "branch": "relates two ports"}.get(word, "takes a port")
         raise ConnectError(
@@ -139,8 +137,8 @@ def _port(item: Any, word: str) -> Connector:
     return item
 
 
-def _refuse_outsider(item: Any) -> None:
-    """Raise ConnectError for a part, or a port of one, that belongs to no built model."""
+def _refuse_unbuilt(item: Any) -> None:
+    """Raise ConnectError for a part, or a port of a part, that is not in a built model."""
     loose = isinstance(item, Path | Field) or (isinstance(item, Component) and not item._is_bound)
     if loose and PENDING.get(None) is None:
         raise ConnectError(
@@ -150,8 +148,8 @@ def _refuse_outsider(item: Any) -> None:
     if isinstance(item, Component) and not item._is_bound:
         name, kind = type(item).__name__.lower(), type(item).__name__
         raise ConnectError(
-            f"{kind}() is created in connections(), where it does not become a part of the model. Write it in the class body, "
-            f"`{name} = {kind}(...)`, and connect self.{name}."
+            f"{kind}() is created in connections(), where it does not become a part of the model. Declare it in the "
+            f"class body, `{name} = {kind}(...)`, and connect self.{name}."
         )
     if isinstance(item, type) and issubclass(item, Component):
         name = item.__name__.lower()
@@ -171,17 +169,17 @@ def _refuse_outsider(item: Any) -> None:
         )
 
 
-def _refuse_no_link(item: Any, place: int) -> None:
-    """Raise ConnectError for what is neither a part nor a port; `place` counts the arguments of chain() from 1."""
-    _refuse_outsider(item)
+def _check_link(item: Any, place: int) -> None:
+    """Raise ConnectError for an argument of chain() that is neither a part nor a port; `place` counts from 1."""
+    _refuse_unbuilt(item)
     if isinstance(item, list | tuple):
         raise ConnectError(
             "chain() joins parts and ports, not lists of them: write chain(self.a, *self.links, self.b)."
         )
     if item is None:
         raise ConnectError(
-            f"chain() joins parts and ports, but argument {place} is None. {NOTHING} Leave what is None out of the "
-            "chain: `if self.part is not None: yield chain(...)`."
+            f"chain() joins parts and ports, but argument {place} is None. {OPTIONAL} Leave None out of the chain: "
+            "`if self.part is not None: yield chain(...)`."
         )
     if not isinstance(item, Component):
         raise ConnectError(f"chain() joins parts and ports, but argument {place}, {item!r}, is neither.")
@@ -204,6 +202,6 @@ def _describe(item: Any) -> str:
 
 def _ports_of(item: Any) -> str:
     if item is None:
-        return NOTHING
+        return OPTIONAL
     ports = item._ports if isinstance(item, Component) else ()
     return "Its ports: " + ", ".join(p._path for p in ports) + "." if ports else "Name one of a part's ports."

@@ -1,4 +1,4 @@
-"""Values that are data: what they are called, whether two are one, and what a journal says of one."""
+"""Values that are data: comparison, names of classes, digests for journals, and loading from files."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from typing import Any
 
 import numpy as np
 
-from acausal.language.written import in_code
+from acausal.language.formatting import in_code
 
 
 def same(a: Any, b: Any) -> bool:
-    """Return whether two values are one, arrays and what holds arrays entry by entry."""
+    """Return whether two values are equal; arrays and lists of arrays are compared entry by entry."""
     if a is b:
         return True
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         return np.array_equal(a, b)
     if _is_listed(a) and _is_listed(b):
         return len(a) == len(b) and all(map(same, a, b))
-    with suppress(ValueError, TypeError):  # Python cannot decide on arrays
+    with suppress(ValueError, TypeError):  # truth values of arrays are ambiguous
         return bool(a == b)
     return plain(a) == plain(b)
 
@@ -34,12 +34,11 @@ def _is_listed(value: Any) -> bool:
 
 
 def plain(value: Any) -> Any:
-    """Return what JSON knows of a value: equal for equal values, in every process.
+    """Return a JSON representation of a value, equal for equal values in every process.
 
-    Data that write themselves in a few letters, as those with a digest do, are their text; others have the digest of
-    what a pickle of them holds.
+    Data with a short `repr` are represented by it, other data by a digest of their pickle.
     """
-    if isinstance(value, np.ndarray | np.generic):  # among these are kinds of float that compare as arrays do
+    if isinstance(value, np.ndarray | np.generic):  # includes numpy scalars, some of which compare like arrays
         found = value.tolist()
         return repr(found) if isinstance(found, np.generic) else plain(found)
     if value is None or isinstance(value, bool | int | float | str):
@@ -50,22 +49,22 @@ def plain(value: Any) -> Any:
         return [plain(v) for v in value]
     if text := in_code(repr(value), ""):
         return text
-    with suppress(Exception):  # a function in a function, or what holds one
+    with suppress(Exception):  # a nested function, or an object with one, cannot be pickled
         return f"{type(value).__qualname__} {hashlib.sha256(pickle.dumps(value)).hexdigest()}"
     return repr(value)
 
 
 def expected(cls: type, optional: bool) -> str:
-    """Say what a value of a class is called, and what stands for one."""
+    """Return the words for a value of a class in messages, such as "a whole number"."""
     what = {int: "a whole number", float: "a number", str: "a text", bool: "True or False"}.get(cls)
     what = what or f"{'an' if cls.__name__[0] in 'AEIOU' else 'a'} {cls.__name__}"
     if loads(cls):
-        what += ", or the name of a file of one"
+        what += ", or the name of its file"
     return f"{what}{', or None' if optional else ''}"
 
 
 def fits(value: Any, cls: type) -> bool:
-    """Return whether a value is of a class, among numbers as a user would say: True is no number, 2 is one with a point."""
+    """Return whether a value is of a class; True and False are no numbers, and an int is a valid float."""
     if cls in (int, float):
         kinds = (int, np.integer) if cls is int else (int, float, np.integer, np.floating)
         return isinstance(value, kinds) and not isinstance(value, bool)
@@ -73,7 +72,7 @@ def fits(value: Any, cls: type) -> bool:
 
 
 def read(value: Any, cls: type) -> Any:
-    """Return a value, or what the file that it names holds if the class of the field reads files by `load(path)`."""
+    """Return a value, or the content of the file that it names if the class has `load(path)`."""
     is_name = isinstance(value, str | os.PathLike) and not isinstance(value, cls)
     if not (is_name and loads(cls)):
         return value
@@ -81,13 +80,13 @@ def read(value: Any, cls: type) -> Any:
     try:
         state = path.stat()
     except OSError:
-        return cls.load(path)  # type: ignore[attr-defined]  # which says what is wrong
-    return _held(cls, path.resolve(), state.st_mtime_ns, state.st_size)
+        return cls.load(path)  # type: ignore[attr-defined]  # raises the error with its message
+    return _loaded(cls, path.resolve(), state.st_mtime_ns, state.st_size)
 
 
 @lru_cache(maxsize=8)
-def _held(cls: Any, path: Path, *state: int) -> Any:
-    """What a file holds, read once: a study builds its model many times."""
+def _loaded(cls: Any, path: Path, *state: int) -> Any:
+    """Return the content of a file; cached, as a study builds its model many times."""
     return cls.load(path)
 
 

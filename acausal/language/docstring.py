@@ -1,4 +1,4 @@
-"""Docstring and signature of a component class, made from its fields."""
+"""Docstring and signature of a component class, generated from its fields."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from acausal.language.quantities import is_quantity
 
 WIDTH = 100
 SECTION = re.compile(r"\n\n(?=[A-Z][\w ]*\n-{3,}$)", re.MULTILINE)
-WORD = re.compile(r"^(a|[a-z]{2,})(?=[ ,-]|\.?$)")  # the first word of a sentence, not a symbol such as der(phi)
+WORD = re.compile(r"^(a|[a-z]{2,})(?=[ ,-]|\.?$)")  # a first word to capitalise, not a symbol such as der(phi)
 PLAIN = {"bool": bool, "float": float, "int": int, "str": str}
-COMPUTED: Any = type("Computed", (), {"__repr__": lambda self: "..."})()  # a default that follows from other values
+COMPUTED: Any = type("Computed", (), {"__repr__": lambda self: "..."})()  # stands for a computed default
 
 
 def with_fields(cls: Any, written: str) -> str:
-    """Return the docstring of a component class with what its constructor takes, its ports and variables.
+    """Return the docstring of a component class with sections for parameters, ports and variables.
 
     Parameters
     ----------
     cls : Component class
-        Whose fields were read.
+        Class whose fields were read.
     written : str
-        Its docstring, which stays as it is if it has a Parameters section of its own.
+        Docstring of the class, unchanged if it has a Parameters section.
     """
     fields = cls.fields.items()
     made = [
@@ -46,7 +46,7 @@ def with_fields(cls: Any, written: str) -> str:
 
 
 def signature(cls: Any) -> inspect.Signature:
-    """Return the signature of the constructor of a component class: all by name, variables with their start values."""
+    """Return the signature of the constructor: keyword-only arguments, variables with their start values."""
     started = [(n, d) for n, d in cls.fields.items() if isinstance(d, f.Variable) and not _is_parameter(d)]
     return inspect.Signature([_argument(cls, n, d) for n, d in [*_parameters(cls), *started]])
 
@@ -57,7 +57,7 @@ def first_line(cls: type) -> str:
 
 
 def _parameters(cls: Any) -> list[tuple[str, f.Field]]:
-    """Return what the constructor takes beside start values, what has no default first."""
+    """Return the fields that are arguments of the constructor, without variables; those without default first."""
     given = [(n, d) for n, d in cls.fields.items() if _is_parameter(d)]
     return sorted(given, key=lambda item: _value(cls, *item) is not inspect.Parameter.empty)
 
@@ -74,13 +74,13 @@ def _is_variable(field: f.Field) -> bool:
 
 def _argument(cls: Any, name: str, field: f.Field) -> inspect.Parameter:
     """Return a field as an argument of the constructor."""
-    said: Any = _kind(cls, name, field)
-    kind = PLAIN.get(said, said) if _is_parameter(field) else f"{said}; fixed() or guess()"
+    text: Any = _kind(cls, name, field)
+    kind = PLAIN.get(text, text) if _is_parameter(field) else f"{text}; fixed() or guess()"
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_value(cls, name, field), annotation=kind)
 
 
 def _value(cls: Any, name: str, field: f.Field) -> Any:
-    """Return the default of a field in a call, `...` for one that follows from other values."""
+    """Return the default of a field in the signature, `...` for a computed one."""
     value = cls._class_values.get(name, field.default)
     if isinstance(field, f.Variable) and not _is_parameter(field):
         start = value if isinstance(value, f.InitialValue) else f.InitialValue(field.start, field.fixed)
@@ -91,19 +91,19 @@ def _value(cls: Any, name: str, field: f.Field) -> Any:
 
 
 def _section(title: str, entries: Iterable[str]) -> list[str]:
-    """Return a section of a docstring; none where there are no entries."""
+    """Return a section of a docstring; [] without entries."""
     lines = [*entries]
     return ["\n".join([title, "-" * len(title), *lines])] if lines else []
 
 
 def _starts(cls: Any) -> list[str]:
-    """Return a line that says how variables get start values; none where there are only outputs."""
+    """Return a line on the start values of variables; [] if there are only outputs."""
     names = [n for n, d in cls.fields.items() if isinstance(d, f.Variable) and not (d.causality or d.flow)]
     return [f"Start values: {n}=fixed(...) holds, {n}=guess(...) is a first guess.\n" for n in names[:1]]
 
 
 def _entry(name: str, field: f.Field, kind: Iterable[str]) -> str:
-    """Name, type, unit and default on one line, then the description."""
+    """Return name, type, unit and default on one line, then the description."""
     text = WORD.sub(lambda word: word[0].capitalize(), field.description)
     text = f"{text}{'' if text.endswith('.') else '.'} {field.doc}".strip()
     head = f"{name} : {', '.join(filter(None, kind))}"
@@ -111,7 +111,7 @@ def _entry(name: str, field: f.Field, kind: Iterable[str]) -> str:
 
 
 def _kind(cls: Any, name: str, field: f.Field) -> str:
-    """Type, unit and bounds of a field."""
+    """Return type, unit and bounds of a field."""
     if isinstance(field, f.Observed):
         return "computed where it is read"
     causality = field.causality if isinstance(field, f.Variable) and not _is_parameter(field) else ""
@@ -153,7 +153,7 @@ def _bound(field: f.Field) -> str:
 
 
 def _default(cls: Any, name: str, field: f.Field) -> str:
-    """Describe the default, "optional" for one that follows from other values."""
+    """Return the text for the default, "optional" for a computed one."""
     value = cls._class_values.get(name, field.default)
     if value is f.MISSING:
         return ""
@@ -163,14 +163,14 @@ def _default(cls: Any, name: str, field: f.Field) -> str:
 
 
 def _is_known(value: Any) -> bool:
-    """True for a value that is known without an instance."""
+    """Return whether a value is known without an instance."""
     if isinstance(value, list | tuple):
         return all(map(_is_known, value))
     return value is None or isinstance(value, bool | int | float | str | np.ndarray) or is_quantity(value)
 
 
 def _plain(value: Any) -> Any:
-    """Return an array as a list, or as 0."""
+    """Return an array as a list, a zero array as 0."""
     return (value.tolist() if value.any() else 0) if isinstance(value, np.ndarray) else value
 
 

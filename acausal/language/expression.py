@@ -1,4 +1,4 @@
-"""Symbolic expressions: a CasADi SX matrix with a unit, and equations between two of them."""
+"""Symbolic expressions, CasADi SX matrices with a unit, and equations of them."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
 from acausal.language.condition import Condition, undecided
-from acausal.language.entries import chosen
-from acausal.language.no_expression import no_expression, number_of, ragged
-from acausal.language.quantities import refused
-from acausal.language.symbolic import TWINS, Symbolic
+from acausal.language.formatting import formatted, kind_of, short
+from acausal.language.indexing import selected_entries
+from acausal.language.invalid_operands import invalid_operand, number_of, ragged
+from acausal.language.quantities import misplaced_quantity
+from acausal.language.symbolic import NUMPY_FUNCTIONS, Symbolic
 from acausal.language.unit_rules import Unit
-from acausal.language.written import kind_of, short, written
 from acausal.symbols import combined, picked, vec
 from acausal.units import Dimension
 
@@ -31,12 +31,12 @@ class Expr(Symbolic):
     sx : casadi.SX
         The expression; a scalar is 1 x 1, a vector n x 1.
     unit : Dimension, tuple of Dimension or None
-        Its unit, one for each row, or None where it is not known (as of numbers).
+        Unit, one for each row, or None if unknown (as for numbers).
     name : str
-        The path of a declared variable or parameter, for messages.
+        Path of a declared variable or parameter, for messages.
     shape : tuple of int, optional
-        Shape as numpy would give it: (), (n,) or (n, m). CasADi knows rows and columns only: where it is not given, one
-        entry is a scalar, and one column a vector.
+        Shape as in numpy: (), (n,) or (n, m). Default: one entry is a scalar, one column is a vector, as CasADi knows
+        rows and columns only.
     """
 
     __slots__ = ("name", "shape", "sx", "unit")
@@ -56,7 +56,7 @@ class Expr(Symbolic):
         return self
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Expr:
-        return self  # a symbol is itself by its identity
+        return self  # symbols are compared by identity
 
     @property
     def T(self) -> Expr:
@@ -65,14 +65,14 @@ class Expr(Symbolic):
         return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None, shape=shape)
 
     def __repr__(self) -> str:
-        return self.name or written(self.sx, self.shape)
+        return self.name or formatted(self.sx, self.shape)
 
     def __len__(self) -> int:
         return self.sx.shape[0]
 
     def __getitem__(self, index: Any) -> Expr:
-        places = chosen(self._shown, self.shape, index)
-        # Of a column: CasADi gives a row where entries of a row are chosen.
+        places = selected_entries(self._shown, self.shape, index)
+        # From a column: CasADi returns a row for entries of a row.
         sx = picked(vec(self.sx), places.ravel(order="F").tolist())
         if places.ndim == 2:
             sx = ca.reshape(sx, *places.shape)
@@ -85,8 +85,8 @@ class Expr(Symbolic):
 
     def __setitem__(self, index: Any, value: Any) -> None:
         raise DeclarationError(
-            f"entries of {short(self)} cannot be assigned: it is symbolic. Yield an equation for them, `... == ...`, or build "
-            "a new vector, (a, b, c)."
+            f"entries of {short(self)} cannot be assigned: it is symbolic. Yield an equation for them, `... == ...`, "
+            "or build a new vector, (a, b, c)."
         )
 
     def __iter__(self):
@@ -137,7 +137,7 @@ class Expr(Symbolic):
         return as_expr(base) ** self
 
     def __abs__(self) -> Any:
-        return TWINS["absolute"](self)
+        return NUMPY_FUNCTIONS["absolute"](self)
 
     def __eq__(self, other: object) -> Any:
         return equation(self, other)
@@ -175,13 +175,13 @@ class Equation:
 
 
 def as_expr(value: Any) -> Expr:
-    """Turn a number, a nested sequence of numbers and expressions, an array or an expression into an Expr."""
+    """Return a number, a nested sequence of numbers and expressions, an array or an expression as an Expr."""
     if isinstance(value, Expr):
         return value
     if isinstance(value, int | float | np.integer | np.floating | np.bool_):
         return _number(number_of(value))
-    if wrong := refused(value):
-        raise DeclarationError(f"here stands {wrong}")
+    if wrong := misplaced_quantity(value):
+        raise DeclarationError(f"an expression contains {wrong}")
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value
         return Expr(ca.SX(ca.sparsify(ca.DM(number))), shape=value.shape)
@@ -197,7 +197,7 @@ def as_expr(value: Any) -> Expr:
         entries = [row.sx for row in rows]
         sx = ca.horzcat(*entries).T if inner else ca.vertcat(*entries)
         return Expr(sx, unit_rules.of_array(rows), shape=(len(rows), *inner))
-    raise DeclarationError(no_expression(value))
+    raise DeclarationError(invalid_operand(value))
 
 
 @lru_cache(maxsize=1024)
@@ -213,7 +213,7 @@ def equation(lhs: Any, rhs: Any) -> Any:
     DeclarationError
         If the shapes differ.
     UnitsError
-        If the units certainly differ.
+        If the units differ for certain.
     """
     if is_deferred(lhs, rhs):
         raise DeclarationError("an equation is stated inside equations(), with self.<name>, not in the class body.")
@@ -231,12 +231,12 @@ def equation(lhs: Any, rhs: Any) -> Any:
 
 
 def is_deferred(*values: Any) -> bool:
-    """Return whether one of the values is a field of a class body, known only when the model is built."""
+    """Return whether a value is a field of a class body, evaluated when the model is built."""
     return any(getattr(value, "is_deferred", False) is True for value in values)
 
 
 def entrywise(a: Expr, symbol: str, b: Expr) -> tuple[int, ...]:
-    """Return the shape of an operation entry by entry, of two equal shapes or with a scalar.
+    """Return the shape of an entrywise operation on two equal shapes, or with a scalar.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Fields of a component class: what it has. The values appear when the model is built."""
+"""Fields of a component class; they get values when the model is built."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ Shape = tuple[int, ...] | Callable[[Any], tuple[int, ...]] | None
 
 
 class Template:
-    """What a part is made from: base of all components."""
+    """Base of all components, the templates of parts."""
 
     _is_port = False
 
 
 class Deferrable(Symbolic):
-    """Something in a class body whose value is known only in an instance; arithmetic with it is deferred as well."""
+    """A value in a class body that is known only in an instance; arithmetic with it is deferred as well."""
 
     is_deferred = True
     _lacks = "has no value in the class body"
@@ -42,8 +42,8 @@ class Deferrable(Symbolic):
 
     def __iter__(self) -> Any:
         raise DeclarationError(
-            "a field cannot be iterated over in the class body, where its value is not known yet. Name its entries, such as "
-            "(r[0], r[1], r[2]), or iterate over self.<name> in equations()."
+            "a field cannot be iterated over in the class body, where its value is not known yet. Write its entries, "
+            "such as (r[0], r[1], r[2]), or iterate over self.<name> in equations()."
         )
 
     def __neg__(self) -> Deferred:
@@ -91,7 +91,7 @@ for _name in ("add", "sub", "mul", "truediv", "floordiv", "matmul", "mod", "pow"
 
 
 class Deferred(Deferrable):
-    """A function of deferred values, evaluated in the component whose class body holds it."""
+    """A function of deferred values, evaluated in the component whose class body contains it."""
 
     def __init__(self, function: Callable[..., Any], arguments: Sequence[Any]) -> None:
         self.function = function
@@ -103,7 +103,7 @@ class Deferred(Deferrable):
 
 
 def evaluate(value: Any, owner: Any) -> Any:
-    """Replace every deferred value inside `value` by its value in the built component `owner`."""
+    """Return `value` with every deferred value in it replaced by its value in the built component `owner`."""
     if isinstance(value, Deferrable):
         return value.evaluate(owner)
     if isinstance(value, Condition):
@@ -117,7 +117,7 @@ def evaluate(value: Any, owner: Any) -> Any:
 
 @dataclass(frozen=True, repr=False)
 class InitialValue:
-    """A start value; `fixed` makes it an equation of the initial system, otherwise it is a guess."""
+    """A start value: an equation of the initial system if `fixed`, otherwise a guess."""
 
     value: Any
     fixed: bool
@@ -136,22 +136,22 @@ class Field(Deferrable):
     shape: Shape = None
     default: Any = MISSING
     name: str = ""
-    doc: str = ""  # added to the description in the docstring of the class only
+    doc: str = ""  # follows the description, in the docstring of the class only
     where: str = ""  # file and line
 
     def __post_init__(self) -> None:
         self.where = user_line()
 
     def __set_name__(self, owner: type, name: str) -> None:
-        # Under a second name it is a reference to the first: `load = R.spare`.
+        # A second name is a reference to the first: `load = R.spare`.
         self.name = self.name or name
 
     def __get__(self, owner: Any, cls: type | None = None) -> Any:
-        """Give the field in a class, and its path in a template that is not built."""
+        """Return the field in a class, and its path in a template."""
         return self if owner is None else owner._member_path(self.name, self)
 
     def __repr__(self) -> str:
-        """Show what help() lists: `<parameter in kg: mass>`."""
+        """Return the text of the field in help(): `<parameter in kg: mass>`."""
         unit = f" in {self.unit}" if isinstance(self.unit, str) and self.unit != "1" else ""
         return f"<{self._kind()}{unit}: {self.description}>"
 
@@ -160,7 +160,7 @@ class Field(Deferrable):
 
     @property
     def connector(self) -> str:
-        """Class of a port, with ", optional" where it may be absent; "" for what is no port."""
+        """Class of a port, with ", optional" if it may be absent; "" for other fields."""
         return ""
 
     def evaluate(self, owner: Any) -> Any:
@@ -170,7 +170,7 @@ class Field(Deferrable):
 
 @dataclass(eq=False, repr=False)
 class Structural(Field):
-    """Fixes sizes and equations; a plain Python value in an instance."""
+    """A parameter that fixes sizes and equations; a plain Python value in an instance."""
 
     choices: tuple[Any, ...] | None = None
     cls: type | None = None
@@ -207,33 +207,33 @@ class Variable(Field):
 
 @dataclass(eq=False, repr=False)
 class Part(Field):
-    """A component inside: a template, or a method that makes it from structural values."""
+    """A component inside another: a template, or a method that creates it from structural values."""
 
     make: Any = None
     many: bool = False
     is_port: bool = False
-    family: str = ""  # the field of the class that makes it, for a port whose name only the instance knows
+    family: str = ""  # for a port whose name is known only in an instance: the field of the class that creates it
 
     @property
     def connector(self) -> str:
-        """Class of a port, of one that a method makes as its annotation says; "" for other parts."""
+        """Class of a port, from the annotation if a method creates it; "" for other parts."""
         if not self.is_port or self.make is None:
             return ""
         if isinstance(self.make, type):
             return self.make.__name__
         if isinstance(self.make, Template):
             return type(self.make).__name__
-        said = inspect.get_annotations(self.make).get("return", "port")
-        text = said if isinstance(said, str) else re.sub(r"[\w.<>]+\.", "", inspect.formatannotation(said))
+        kind = inspect.get_annotations(self.make).get("return", "port")
+        text = kind if isinstance(kind, str) else re.sub(r"[\w.<>]+\.", "", inspect.formatannotation(kind))
         return text.replace(" | None", ", optional")
 
 
 @dataclass(eq=False, repr=False)
 class Family(Part):
-    """Ports whose names are known only in an instance, where these are fields in its place."""
+    """Ports whose names are known only in an instance, where they replace this field."""
 
     def __get__(self, owner: Any, cls: type | None = None) -> Any:
-        """Give the ports of a built component by their names."""
+        """Return the ports of a built component by name."""
         if owner is None or self.name in owner.fields:
             return super().__get__(owner, cls)
         ports = {name: field for name, field in owner.fields.items() if isinstance(field, Part)}
@@ -242,19 +242,19 @@ class Family(Part):
 
 @dataclass(eq=False, repr=False)
 class Outer(Field):
-    """The one component of a class in the whole model."""
+    """A reference to the single component of a class in the model."""
 
     cls: type = object
 
 
 @dataclass(eq=False, repr=False)
 class Observed(Field):
-    """A quantity computed from results on request; no variable and no equation."""
+    """A quantity computed from results on request, without a variable or an equation."""
 
     compute: Any = None
 
     def __get__(self, owner: Any, cls: type | None = None) -> Any:
-        """Compute the expression in a built component."""
+        """Return the expression in a built component."""
         if owner is None or not owner._is_bound:
             return super().__get__(owner, cls)
         with reading():

@@ -1,4 +1,4 @@
-"""Functions of expressions; with a field of a class body they are deferred until the model is built."""
+"""Functions of expressions; on fields of a class body they are deferred until the model is built."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ import casadi as ca
 
 from acausal.errors import DeclarationError, UnitsError
 from acausal.language import unit_rules
-from acausal.language.arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition, refuse_cases
 from acausal.language.expression import Expr, as_expr, entrywise, is_deferred
 from acausal.language.fields import Deferred
+from acausal.language.formatting import kind_of
 from acausal.language.pending import PENDING, Pending, pending_for, truth
-from acausal.language.written import kind_of
 from acausal.symbols import scalars
 from acausal.units import DIMENSIONLESS, Dimension, parse
 
 _SECOND = parse("s")
-# Without a unit, so that sin(time) is right for users who mean rad/s times time.
+# Without a unit, so that sin(time) is valid, meant as 1 rad/s times time.
 time = Expr(ca.SX.sym("time"), None, "time")
 initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
-# How fast states return to an invariant that they must keep (Baumgarte 1972): ten times in a run.
+# Rate at which states return to an invariant (Baumgarte 1972): ten time constants in a run.
 feedback = Expr(ca.SX.sym("feedback"), DIMENSIONLESS / _SECOND, "feedback")
 
 
@@ -35,7 +35,7 @@ def _deferrable(function: Callable[..., Any]) -> Callable[..., Any]:
             return Deferred(call, arguments)
         return function(*arguments)
 
-    return told(call)
+    return checked_call(call)
 
 
 def _elementary(name: str, operate: Callable[[ca.SX], ca.SX]) -> Callable[[Any], Any]:
@@ -85,9 +85,9 @@ def _watched_sign(x: Expr, pending: Pending) -> ca.SX:
 
 @_deferrable
 def absolute(x: Any) -> Any:
-    """Absolute value of an expression, entry by entry: what abs(x) gives.
+    """Absolute value of an expression, entry by entry, as abs(x).
 
-    Its value is continuous, so that only a law of time alone stops the integration at its kinks.
+    The value is continuous: the integration stops only at kinks of functions of time alone.
     """
     x, pending = as_expr(x), PENDING.get(None)
     symbols = {s.element_hash() for s in ca.symvar(x.sx)}
@@ -124,9 +124,9 @@ def cross(a: Any, b: Any) -> Any:
     return Expr(ca.cross(a.sx, b.sx), unit_rules.of_product(a, b) if one else None)
 
 
-@told
+@checked_call
 def quantity(value: Any, unit: str) -> Expr:
-    """Return a constant with a unit, where a number alone takes the unit that the equation asks for.
+    """Return a constant with a unit; a number without one takes the unit of the equation.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def quantity(value: Any, unit: str) -> Expr:
     return Expr(number.sx, parse(unit), shape=number.shape)
 
 
-@told
+@checked_call
 def der(x: Any) -> Any:
     """Time derivative of an expression.
 
@@ -171,24 +171,24 @@ def der(x: Any) -> Any:
     return Expr(placeholder, unit, f"der({x.name})" if x.name else "", x.shape)
 
 
-@told
+@checked_call
 def piecewise(*cases: Any, smooth: bool = False) -> Any:
     """Value of the first case whose condition holds.
 
     Parameters
     ----------
     *cases : (value, Condition) pairs, then a value
-        The last argument, without a condition, is the value otherwise. Where a condition compares `time` with an expression
-        of parameters, alone or joined with others, the instant is a break time: the integration stops there exactly.
-        Any other condition is watched: the integration stops where it changes, located to about the tolerance.
+        The last argument, without a condition, is the value otherwise. Where a condition compares `time` with an
+        expression of parameters, alone or joined with others, its change is a time event: the integration stops there
+        exactly. Changes of other conditions are state events, located to about the tolerance.
     smooth : bool
-        True promises that value and first two derivatives are continuous, so that no stop is needed. A run in which
-        the value jumps nevertheless ends with a warning.
+        True declares that the value and its first two derivatives are continuous, so that no event is needed. A run in
+        which the value jumps nevertheless ends with a warning.
 
     Returns
     -------
     Expr
-        The value, all cases having one shape.
+        The value; all cases have one shape.
 
     Examples
     --------
@@ -202,7 +202,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     unit, laws = (
         otherwise.unit,
         [(ca.SX(1), otherwise.sx)],
-    )  # whether a case holds, and its value, from the last to the first
+    )  # (condition, value) of the cases, from last to first
     for choice, condition in reversed(cases[:-1]):
         choice = as_expr(choice)
         if choice.shape != otherwise.shape:
@@ -214,14 +214,14 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         laws.append((truth(condition) if smooth else pending_for("piecewise").switch(condition), choice.sx))
     _, value = _first_that_holds(laws[::-1])
     if smooth and (pending := PENDING.get(None)):
-        pending.promise([condition for _, condition in cases[:-1]], [law for _, law in reversed(laws)], value)
+        pending.add_smooth_law([condition for _, condition in cases[:-1]], [law for _, law in reversed(laws)], value)
     return Expr(value, unit, shape=otherwise.shape)
 
 
 def _first_that_holds(cases: list[tuple[ca.SX, ca.SX]]) -> tuple[ca.SX, ca.SX]:
-    """Return whether one of some cases holds, and the value of the first one that does, in the last one's absence.
+    """Return whether any of the cases holds, and the value of the first case that holds, or else of the last one.
 
-    The selections are a balanced tree: reverse differentiation of a chain of n selections takes n^2 operations.
+    The selections form a balanced tree: reverse differentiation of a chain of n selections takes n^2 operations.
     """
     if len(cases) == 1:
         return cases[0]

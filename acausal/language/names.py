@@ -1,4 +1,4 @@
-"""Names in a class body that cannot mean what they seem to: those that the engine reads."""
+"""Reserved names in class bodies, and annotations that declare nothing."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from types import FunctionType
 from typing import Any
 
 from acausal.language import fields as f
-from acausal.language.arguments import refused
-from acausal.language.source import ENGINE, body_line
+from acausal.language.call_arguments import declaration_error
+from acausal.language.source_code import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 
-PLAIN = ("ends", "start_words", "without_soft")  # read by the engine, and no methods
+PLAIN = ("ends", "start_words", "without_soft")  # reserved attributes that are no methods
 EXAMPLES = {
     "connections": "yield connect(self.a, self.b)",
     "equations": "yield self.x == ...",
@@ -27,15 +27,15 @@ EXAMPLES = {
 }
 
 
-def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
-    """Raise DeclarationError for a name of the engine that stands for something else.
+def refuse_names(cls: Any, body: Mapping[str, Any]) -> None:
+    """Raise DeclarationError for a reserved name with a value of another kind.
 
     Parameters
     ----------
     cls : Component class
-        A class whose body was executed.
-    said : mapping of str to object
-        What the body contains.
+        Class whose body was executed.
+    body : mapping of str to object
+        Attributes in the body.
     """
     if cls.__module__ == ENGINE:
         return
@@ -43,21 +43,21 @@ def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
     for base in cls.__mro__[:0:-1]:
         if base.__module__ in (ENGINE, f.__name__):
             engine |= vars(base)
-    for name, value in said.items():
+    for name, value in body.items():
         wrong = _reserved(cls, name, value, engine)
         if wrong:
-            raise refused(f"{cls.__name__}.{name}: {wrong}", body_line(cls, name))
+            raise declaration_error(f"{cls.__name__}.{name}: {wrong}", body_line(cls, name))
 
 
 def refuse_annotations(cls: Any) -> None:
-    """Raise DeclarationError for an annotation that looks like a field, but declares none."""
+    """Raise DeclarationError for an annotation without a value that looks like a field."""
     for base in cls.__mro__:
         for name in inspect.get_annotations(base) if "_own_fields" in vars(base) else ():
             if name in cls.fields or hasattr(cls, name):
                 continue
             if _is_call(inspect.get_annotations(base)[name]):
-                raise refused(
-                    f"{base.__name__}.{name} has no value: a `:` stands where `=` is meant. Write `{name} = ...`, or "
+                raise declaration_error(
+                    f"{base.__name__}.{name} has no value: use `=` instead of `:`. Write `{name} = ...`, or "
                     f"`{name}: Scalar = ...` for a field.",
                     base._line,
                 )
@@ -65,7 +65,7 @@ def refuse_annotations(cls: Any) -> None:
                 continue
             kind = inspect.get_annotations(base)[name]
             kind = kind if isinstance(kind, str) else kind.__name__
-            raise refused(
+            raise declaration_error(
                 f'{base.__name__}.{name} has a type, but is not declared: write `{name}: {kind} = variable("...")`, or '
                 "parameter, input, output.",
                 base._line,
@@ -73,53 +73,51 @@ def refuse_annotations(cls: Any) -> None:
 
 
 def _is_call(annotation: Any) -> bool:
-    """Whether what makes a part or a field stands as a type."""
+    """Return whether an annotation is a part or a field, or the text of a call."""
     made = isinstance(annotation, f.Template | f.Field)
     return made or (isinstance(annotation, str) and re.match(r"[\w.]+\(", annotation) is not None)
 
 
 def refuse_plain(cls: Any, name: str, value: Any) -> None:
-    """Raise DeclarationError for a value that is annotated as a field, or a field that stands as an annotation."""
+    """Raise DeclarationError for a plain value that is annotated as a field."""
     annotation = inspect.get_annotations(cls).get(name)
     if isinstance(value, f.Field) or shape_of_annotation(cls, name) is None or isinstance(value, property):
         return
     kind = annotation if isinstance(annotation, str) else annotation.__name__  # type: ignore[union-attr]
     if inspect.isfunction(value):
         word = value.__name__
-        mend = f'`{word}` lacks its brackets: `{name}: {kind} = {word}("...")`'
+        remedy = f'`{word}` is not called: write `{name}: {kind} = {word}("...")`'
     else:
-        mend = (
+        remedy = (
             f'it is {shown(value)}, not a field: write `{name}: {kind} = parameter("...", default={shown(value)})`; a '
-            f"constant stands without the type, `{name} = {shown(value)}`"
+            f"constant has no type, `{name} = {shown(value)}`"
         )
-    raise refused(f"{cls.__name__}.{name}: {mend}.", body_line(cls, name))
+    raise declaration_error(f"{cls.__name__}.{name}: {remedy}.", body_line(cls, name))
 
 
 def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str:
-    """Say why a name cannot stand for a value, "" if it can."""
+    """Return the message for a value of a reserved name, "" if it is valid."""
     field = isinstance(value, f.Field | f.Template)
     if name == "__post_init__":
         return (
-            "a component class has none. Put what it does into check() or __init__, which calls super().__init__(...)."
+            "a component class has none. Move its code to check(), or to an __init__ that calls super().__init__(...)."
         )
     if name not in engine or name.startswith("__"):
         return ""
     old = engine[name]
     if not inspect.isfunction(old) or name[0] == "_":
         plain = name in PLAIN and not field and not callable(value)
-        return "" if plain else "this name is used by the engine; give it another one."
+        return "" if plain else "this name is reserved; choose another one."
     if isinstance(value, FunctionType) and _takes(value, old):
         return ""
     written = ", ".join(_arguments(old))
     form = f"`def {name}({written}): {EXAMPLES.get(name, 'return ...')}`"
     if not isinstance(value, FunctionType):
         marked = isinstance(value, property | staticmethod | classmethod)
-        what = f"leave out @{type(value).__name__}." if marked else f"write that instead of `{name} = {shown(value)}`."
-        other = (
-            f"give this {'part' if isinstance(value, f.Template | f.Part) else 'field'} another one." if field else what
-        )
+        what = f"remove @{type(value).__name__}." if marked else f"write that instead of `{name} = {shown(value)}`."
+        other = f"rename this {'part' if isinstance(value, f.Template | f.Part) else 'field'}." if field else what
         return f"every component has a method of this name, {form}; {other}"
-    return f"this method takes {'self alone' if written == 'self' else written}: {form}."
+    return f"this method takes {'only self' if written == 'self' else written}: {form}."
 
 
 @cache
@@ -128,7 +126,7 @@ def _arguments(method: FunctionType) -> tuple[str, ...]:
 
 
 def _takes(method: FunctionType, old: FunctionType) -> bool:
-    """Whether a method can be called like the one that it overrides."""
+    """Return whether a method takes the arguments of the method that it overrides."""
     try:
         inspect.signature(method).bind(*_arguments(old))
     except TypeError:

@@ -1,18 +1,18 @@
-"""Paths: members of a model that is not built."""
+"""Paths of members of a model that is not built."""
 
 from __future__ import annotations
 
 from typing import Any, ClassVar
 
 from acausal.language import fields as f
-from acausal.language.arguments import refused
-from acausal.language.refusals import refuse_path
+from acausal.language.call_arguments import declaration_error
+from acausal.language.invalid_settings import refuse_path
 
 
 class Path:
-    """Name of a member of a model that is not built: `model.beam.frame_b.r_0`; results are read by it."""
+    """Path of a member of a model that is not built, `model.beam.frame_b.r_0`; a key of results."""
 
-    __iter__: ClassVar[None] = None  # or Python would go through [0], [1], ... without end
+    __iter__: ClassVar[None] = None  # otherwise Python would iterate over [0], [1], ... without end
     _path: str
     _make: Any
     _class: type
@@ -27,7 +27,7 @@ class Path:
         return Path(f"{self._path}.{name}", getattr(self._class, name, None))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        raise refused(refuse_path(f"{self._path}.{name}", self._class, name, value))
+        raise declaration_error(refuse_path(f"{self._path}.{name}", self._class, name, value))
 
     def __getitem__(self, index: Any) -> Path:
         known = isinstance(self._make, list) and isinstance(index, int) and -len(self._make) <= index < len(self._make)
@@ -37,8 +37,9 @@ class Path:
         whole = (
             "its list" if not isinstance(self._make, f.Field) or isinstance(self._make, f.Part) else "the whole array"
         )
-        raise refused(
-            f"`{self._path}[{index}]` cannot be set on a model: give {whole} where the part is created, `{self._name}=...`."
+        raise declaration_error(
+            f"`{self._path}[{index}]` cannot be set on a model: give {whole} where the part is created, "
+            f"`{self._name}=...`."
         )
 
     @property

@@ -1,4 +1,4 @@
-"""What equations request while a model is flattened: derivatives, switching conditions and jumps."""
+"""Requests of equations while a model is flattened: derivatives, switches and jumps."""
 
 from __future__ import annotations
 
@@ -11,42 +11,41 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.language.condition import Condition
-from acausal.language.events import When
+from acausal.language.when_statements import When
 from acausal.symbols import Distinct, vec
 
 
 class Pending:
-    """What equations request while a model is flattened: derivatives, switching conditions and jumps.
+    """Requests of equations while a model is flattened: derivatives, switches and jumps.
 
-    `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
-    `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` says where each is stated.
-    `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
-    `laws` holds the set-valued laws and where they are stated.
-    `varying` holds the symbols of variables, as soon as there are any.
-    `watches` is false while start values are formed, which need no switches.
-    `differentiated` holds the expressions of der() that depend on switches, `sources` where each is stated.
-    `promises` holds (condition, step, value) of smooth switches, `promised` where each is stated: where the condition
-    changes, the step from one case to the next should be 0.
+    `derivatives` contains (placeholder, expression); all derivatives are formed in one call later.
+    `switches` contains (switch, condition): a switch is 1 while its condition holds; `switch_origins` contains their
+    origins. `whens` contains event statements, `laws` set-valued laws, each with its origin.
+    `discrete` and `varying` contain the hashes of the symbols of discrete and of all variables, once these exist.
+    `watches` is False while start values are formed, which need no switches.
+    `differentiated` contains the operands of der() that depend on switches, `derivative_origins` their origins.
+    `smooth_steps` contains (condition, step, value) of smooth laws, `smooth_origins` their origins: where the condition
+    changes, the step between two cases should be 0.
     """
 
     def __init__(self) -> None:
         self.derivatives: list[tuple[ca.SX, ca.SX]] = []
         self.switches: list[tuple[ca.SX, Condition]] = []
-        self.places: list[Any] = []
+        self.switch_origins: list[Any] = []
         self.whens: list[tuple[When, Any]] = []
         self.laws: list[tuple[Any, Any]] = []
         self.discrete: set[int] = set()
         self.varying: set[int] = set()
         self.watches = True
         self.differentiated: list[ca.SX] = []
-        self.sources: list[Any] = []
-        self.promises: list[tuple[Condition, ca.SX, ca.SX]] = []
-        self.promised: list[Any] = []
+        self.derivative_origins: list[Any] = []
+        self.smooth_steps: list[tuple[Condition, ca.SX, ca.SX]] = []
+        self.smooth_origins: list[Any] = []
         self._conditions = Distinct()
         self._switching: set[int] = set()
 
     def switch(self, condition: Condition) -> ca.SX:
-        """Return the switch of a condition, the same for the same condition; one on discrete variables is its own."""
+        """Return the switch of a condition, one for equal conditions; a condition on discrete variables needs none."""
         if not self.watches or all(s.element_hash() in self.discrete for s in ca.symvar(condition.excess.sx)):
             return truth(condition)
         number = self._conditions.number(condition.excess.sx, condition.kind)
@@ -56,13 +55,13 @@ class Pending:
         return self.switches[number][0]
 
     def place(self, origin: Any) -> None:
-        """Record where the switches and derivatives requested since the last call come from."""
-        self.places += [origin] * (len(self.switches) - len(self.places))
-        self.sources += [origin] * (len(self.differentiated) - len(self.sources))
-        self.promised += [origin] * (len(self.promises) - len(self.promised))
+        """Record the origin of the requests since the last call."""
+        self.switch_origins += [origin] * (len(self.switches) - len(self.switch_origins))
+        self.derivative_origins += [origin] * (len(self.differentiated) - len(self.derivative_origins))
+        self.smooth_origins += [origin] * (len(self.smooth_steps) - len(self.smooth_origins))
 
-    def promise(self, conditions: list[Condition], laws: list[ca.SX], value: ca.SX) -> None:
-        """Note the steps of a smooth law from each case to the next that holds; an earlier case that holds hides them."""
+    def add_smooth_law(self, conditions: list[Condition], laws: list[ca.SX], value: ca.SX) -> None:
+        """Record the steps of a smooth law between consecutive cases, 0 where an earlier case holds."""
         if not self.watches:
             return
         truths, steps, later = [truth(condition) for condition in conditions], list[ca.SX](), laws[-1]
@@ -71,7 +70,7 @@ class Pending:
             later = ca.if_else(holds, law, later)
         hidden = ca.SX(0)
         for condition, holds, step in zip(conditions, truths, reversed(steps), strict=True):
-            self.promises.append((condition, vec(ca.if_else(hidden, 0, step)), vec(value)))
+            self.smooth_steps.append((condition, vec(ca.if_else(hidden, 0, step)), vec(value)))
             hidden = ca.logic_or(hidden, holds)
 
     def differentiate(self, x: ca.SX) -> ca.SX:
@@ -92,7 +91,7 @@ PENDING: ContextVar[Pending] = ContextVar("pending")
 
 
 def pending_for(what: str) -> Pending:
-    """Return what is pending; outside equations() DeclarationError for `what` was used."""
+    """Return the current requests; raise DeclarationError, naming `what`, outside equations()."""
     try:
         return PENDING.get()
     except LookupError:
@@ -100,7 +99,7 @@ def pending_for(what: str) -> Pending:
 
 
 class _Reading(Pending):
-    """Nothing can be requested any more: conditions are evaluated as they are, derivatives are refused."""
+    """Requests while values are read: conditions are evaluated without switches, derivatives are invalid."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -112,7 +111,7 @@ class _Reading(Pending):
 
 @contextmanager
 def reading() -> Iterator[None]:
-    """Form expressions of a built model that are read, not solved; within equations() they are as everything else there."""
+    """Form expressions of a built model for reading, without requests; within equations() requests are recorded."""
     token = PENDING.set(PENDING.get(None) or _Reading())
     try:
         yield

@@ -1,6 +1,6 @@
-"""Quantities of other packages, as of pint, astropy or unyt: converted to the unit of the field that they are given to.
+"""Conversion of quantities of other packages (pint, astropy, unyt) to the unit of a field.
 
-They are known by what they have in common: a number (`magnitude` or `value`), its unit (`units` or `unit`), and `to(unit)`.
+They are recognised by common attributes: a number (`magnitude` or `value`), a unit (`units` or `unit`), and `to(unit)`.
 """
 
 from __future__ import annotations
@@ -13,21 +13,21 @@ from acausal.errors import DeclarationError, UnitsError
 from acausal.language.unit_rules import Unit
 from acausal.units import BASES, Dimension
 
-# An angle has a unit of its own in some packages and none in SI; these are the powers of it in moments, stiffnesses, rates.
+# Some packages give angles a unit, which SI does not; its powers in moments, stiffnesses and rates:
 _ANGLES = ("", "*rad", "/rad", "*rad**2", "/rad**2")
 
 
 def plain(value: Any, unit: Unit, where: str) -> Any:
-    """Return a value with numbers in SI in place of quantities, which may stand in lists and arrays.
+    """Return a value with quantities, also in lists and arrays, replaced by numbers in SI.
 
     Parameters
     ----------
     value : object
-        As it is given.
+        Value from the user.
     unit : Dimension, tuple of Dimension or None
-        Unit of the field, or of each of its rows; None where none is declared.
+        Unit of the field, or of each of its rows; None if none is declared.
     where : str
-        What it is the value of, for messages.
+        Name of the field, for messages.
 
     Raises
     ------
@@ -62,8 +62,8 @@ def is_quantity(value: Any) -> bool:
     return any(hasattr(value, n) for n in ("magnitude", "value")) and any(hasattr(value, u) for u in ("units", "unit"))
 
 
-def refused(value: Any) -> str:
-    """Return the message for a quantity where no field tells the unit, "" for other values."""
+def misplaced_quantity(value: Any) -> str:
+    """Return the message for a quantity that belongs to no field with a unit, "" for other values."""
     if isinstance(value, np.ma.MaskedArray):
         return masked(value)
     if not is_quantity(value):
@@ -81,13 +81,13 @@ def _converted(value: Any, unit: Dimension, where: str) -> Any:
     for angle in _ANGLES:
         try:
             number = _number(value.to(f"{_text(unit)}{angle}" if _text(unit) else angle.lstrip("*").replace("/", "1/")))
-        except Exception:  # each package has its own for units that do not fit
+        except Exception:  # packages raise different errors for incompatible units
             continue
         return np.asarray(number, dtype=float) if np.ndim(number) else float(number)
     own = str(unit) if unit.exponents.count(0) < len(BASES) else "a number or an angle"
     raise UnitsError(
-        f"{where} is {_shown(value)}, which cannot be converted to {own}. Give a quantity of that dimension, or the number "
-        "alone, in SI."
+        f"{where} is {_shown(value)}, which cannot be converted to {own}. Give a quantity of that dimension, or the "
+        "number alone, in SI."
     )
 
 
@@ -96,7 +96,7 @@ def _number(quantity: Any) -> Any:
 
 
 def _text(unit: Dimension) -> str:
-    """Write a unit in base units, as the other packages read it."""
+    """Return a unit in base units, in the syntax of the other packages."""
     powers = zip(BASES, unit.exponents, strict=True)
     return "*".join(base if power == 1 else f"{base}**({power})" for base, power in powers if power)
 
@@ -108,7 +108,7 @@ def _is_listed(value: Any) -> bool:
 
 
 def _holds_quantity(value: Any) -> bool:
-    """Whether a list holds a quantity or a masked array at any depth."""
+    """Return whether a list contains a quantity or a masked array at any depth."""
     return any(
         isinstance(item, np.ma.MaskedArray) or is_quantity(item) or (_is_listed(item) and _holds_quantity(item))
         for item in value

@@ -1,4 +1,4 @@
-"""Signals: inputs and outputs in connections(), where no variable exists yet, and what joins them."""
+"""Signals: inputs and outputs in connections(), before variables exist, and their connections."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Signal:
 
 @dataclass(frozen=True, eq=False)
 class Wire:
-    """An output and an input are equal."""
+    """Connection of an output and an input."""
 
     a: Any
     b: Any

@@ -1,11 +1,11 @@
-"""Initial equations that closed loops override."""
+"""Soft initial equations, which closed loops override."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.expression import Equation
 
 
@@ -13,11 +13,11 @@ class Soft(Equation):
     """An initial equation that closed loops override, see `soft`."""
 
 
-@told
+@checked_call
 def soft(condition: Any) -> Soft:
-    """Let closed loops override an initial equation; yield it in initial_equations().
+    """State an initial equation that closed loops override; yield it in initial_equations().
 
-    An elastic part starts undeformed, say, but for what it takes up of a loop that does not close with rigid parts.
+    For example, an elastic part starts undeformed, except for the deformation that closes a loop.
 
     Parameters
     ----------

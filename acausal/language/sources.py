@@ -23,7 +23,7 @@ def sine(amplitude: Any = 1, f: Any = 1, phase: Any = 0, offset: Any = 0, start_
     phase : float or Expr
         Phase at start_time in rad.
     start_time : float or Expr
-        Where the wave begins, in s.
+        Start of the wave in s.
     """
     wave = amplitude * sin(2 * math.pi * _in(f, "Hz") * (time - start_time) + phase)
     return offset + piecewise((0, time < start_time), wave)
@@ -42,7 +42,7 @@ def ramp(height: Any = 1, duration: Any = 2, offset: Any = 0, start_time: Any = 
     height, offset : float or Expr
         Rise, and the value before it, in the unit of the signal.
     duration, start_time : float or Expr
-        Duration and beginning of the rise in s; a duration of 0 is a step.
+        Duration and start of the rise in s; a duration of 0 gives a step.
     """
     if _is_number(duration) and duration == 0:
         return step(height, offset, start_time)
@@ -102,15 +102,15 @@ def trapezoid(
     period = _in(period, "s")
 
     def angle(at: Any) -> Any:
-        """Angle that is 0 at `at` in every period."""
+        """Return an angle that is 0 at `at` in every period."""
         return 2 * math.pi * ((time - start_time - at) / period)
 
     def within(begin: Any, duration: Any) -> Any:
-        """Condition that holds for `duration` from `begin` on in every period."""
+        """Return a condition that holds for `duration` from `begin` on in every period."""
         return cos(angle(begin + duration / 2)) > cos(math.pi * (_in(duration, "s") / period))
 
     def elapsed(begin: Any, duration: Any) -> Any:
-        """Fraction of `duration` since `begin`, between them."""
+        """Return the fraction of `duration` that has passed since `begin`, valid within it."""
         turn = angle(begin + duration / 2)
         return 0.5 + period / _in(duration, "s") * atan2(sin(turn), cos(turn)) / (2 * math.pi)
 
@@ -131,12 +131,12 @@ def time_table(rows: Sequence[Sequence[float]], offset: Any = 0, start_time: Any
     Parameters
     ----------
     rows : sequence of (time, value)
-        At least one row, of ascending times in s from start_time on; two rows of one time are a jump, after which the second
-        holds. Beyond the ends the outermost segments are continued.
+        At least one row, with ascending times in s after start_time; two rows of one time are a jump, from which the
+        second one holds. The outermost segments are extrapolated.
     offset : float or Expr
         Added to the values, and the value before start_time, in the unit of the signal.
     start_time : float or Expr
-        Time 0 of the table in s.
+        Start of the table in s: time 0 in its rows.
 
     Raises
     ------
@@ -160,7 +160,7 @@ def time_table(rows: Sequence[Sequence[float]], offset: Any = 0, start_time: Any
 
 
 def _in(x: Any, unit: str) -> Any:
-    """Give a number its unit."""
+    """Return a number with its unit, other values unchanged."""
     return quantity(x, unit) if _is_number(x) else x
 
 

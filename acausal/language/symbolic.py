@@ -1,4 +1,4 @@
-"""What a symbol is not: a Python number or a numpy array. numpy's functions with a counterpart here are replaced by it."""
+"""Behaviour of symbols in Python and numpy: operations without meaning are errors, numpy functions are replaced."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from acausal.errors import DeclarationError
-from acausal.language.written import short
+from acausal.language.formatting import short
 
-# numpy's functions by name, and what they are here; see `twins`.
-TWINS: dict[str, Callable[..., Any]] = {}
+# Name of a numpy function -> its counterpart for expressions; see `numpy_functions`.
+NUMPY_FUNCTIONS: dict[str, Callable[..., Any]] = {}
 
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan2", "exp", "log", "tanh", "sqrt", "sign", "dot", "cross")
@@ -18,7 +18,7 @@ _STEPS = (
     "the steps as a discrete variable, when(condition, reinit(...)), or piecewise((value, condition), ..., otherwise)"
 )
 _TUPLE = "a vector as a tuple of its entries, (a, b, c)"
-# What stands in place of numpy's functions that have no counterpart.
+# Name of a numpy function without counterpart -> what to write instead.
 INSTEAD = {
     "norm": "sqrt(dot(v, v)) for the length of v",
     "hypot": "sqrt(a**2 + b**2)",
@@ -54,7 +54,7 @@ INSTEAD |= dict.fromkeys(("hstack", "vstack", "stack", "concatenate", "append", 
 
 
 class Symbolic:
-    """Base of expressions, and of fields in a class body."""
+    """Base class of expressions and of fields in a class body."""
 
     __slots__ = ()
     _lacks: ClassVar[str]
@@ -62,21 +62,21 @@ class Symbolic:
 
     def _no_number(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"{self._shown()} {self._lacks}, so it cannot be a Python number. Instead of math's functions use those of acausal: "
-            f"sin, sqrt, atan2, ...; or {self._instead}."
+            f"{self._shown()} {self._lacks}, so it cannot be a Python number. Instead of math's functions use those of "
+            f"acausal: sin, sqrt, atan2, ...; or {self._instead}."
         )
 
     __float__ = __int__ = __index__ = __complex__ = _no_number
 
     def _steps(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"`%`, `//` and round() of {self._shown()} would jump without an event. Count the steps with a discrete variable, "
-            "when(condition, reinit(...)), or choose with piecewise((value, condition), ..., otherwise)."
+            f"`%`, `//` and round() of {self._shown()} would jump without an event. Count the steps with a discrete "
+            "variable, when(condition, reinit(...)), or choose with piecewise((value, condition), ..., otherwise)."
         )
 
     def _join(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"`&` and `|` join conditions, not {self._shown()}: put each condition in brackets: (x > 0) & (x < 1)."
+            f"`&` and `|` join conditions, not {self._shown()}: put each condition in parentheses: (x > 0) & (x < 1)."
         )
 
     def _caret(self, *_: Any) -> Any:
@@ -98,20 +98,20 @@ class Symbolic:
         )
 
     def __array_ufunc__(self, function: Any, method: str, *arguments: Any, **options: Any) -> Any:
-        twin = TWINS.get(function.__name__)
-        if twin is None or method != "__call__" or options:
+        counterpart = NUMPY_FUNCTIONS.get(function.__name__)
+        if counterpart is None or method != "__call__" or options:
             self._refuse_numpy(function.__name__)
-        return twin(*arguments)  # type: ignore[misc]
+        return counterpart(*arguments)  # type: ignore[misc]
 
     def __array_function__(self, function: Any, _: Any, arguments: Any, options: Any) -> Any:
-        twin = TWINS.get(function.__name__)
-        if twin is None or options:
+        counterpart = NUMPY_FUNCTIONS.get(function.__name__)
+        if counterpart is None or options:
             self._refuse_numpy(function.__name__)
-        return twin(*arguments)  # type: ignore[misc]
+        return counterpart(*arguments)  # type: ignore[misc]
 
     def _refuse_numpy(self, name: str) -> Any:
-        mend = INSTEAD.get(name) or f"acausal has {', '.join(FUNCTIONS)}, abs, min by piecewise, and sum(v)"
-        raise DeclarationError(f"numpy's `{name}` takes numbers, and {self._shown()} {self._lacks}. Write {mend}.")
+        remedy = INSTEAD.get(name) or f"acausal has {', '.join(FUNCTIONS)}, abs, min by piecewise, and sum(v)"
+        raise DeclarationError(f"numpy's `{name}` takes numbers, and {self._shown()} {self._lacks}. Write {remedy}.")
 
     def _shown(self) -> str:
         return short(self)

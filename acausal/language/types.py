@@ -1,4 +1,4 @@
-"""Annotations of fields: Scalar, Vector3, Matrix33. To a type checker they are anything that numbers can become."""
+"""Annotations of fields: Scalar, Vector3 and Matrix33; Any for type checkers."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import re
 import sys
 from typing import TYPE_CHECKING, Any
 
-from acausal.language.arguments import refused
-from acausal.nearest import likeliest
+from acausal.language.call_arguments import declaration_error
+from acausal.nearest import most_similar
 
 if TYPE_CHECKING:
     Scalar = Any
@@ -20,7 +20,7 @@ else:
     class _Type:
         def __new__(cls, *_: Any, **__: Any) -> Any:
             name = cls.__name__
-            raise refused(
+            raise declaration_error(
                 f'{name} is the type of a field and takes no value: `x: {name} = variable("...")`, or parameter(...).'
             )
 
@@ -36,7 +36,7 @@ else:
 
 _BY_NAME = {"Scalar": (), "Vector3": (3,), "Matrix33": (3, 3)}
 _NO_TYPES = (tuple, list, int, float)
-_READABLE = re.compile(r"[\s('\"]*[^\W\d][\w.]*\s*(\[|\||['\")]|$)")  # a name, and what it holds or stands beside
+_READABLE = re.compile(r"[\s('\"]*[^\W\d][\w.]*\s*(\[|\||['\")]|$)")  # a type name, subscripted, in a union or quoted
 _REAL = ("float", "float64", "floating", "Real")
 _WHOLE = ("int", "bool", "str", "Literal", "Enum")
 _LISTED = ("list", "tuple", "ndarray", "Sequence", "Iterable", "array")
@@ -44,23 +44,23 @@ _NEITHER = ("dict", "set", "complex", "Mapping", "None", "NoneType", "type", "ob
 
 
 def shape_of_annotation(cls: type, name: str) -> tuple[int, ...] | None:
-    """Return the shape that the annotation of a field tells, or None."""
+    """Return the shape from the annotation of a field, or None."""
     return _BY_NAME.get(_type_name(cls, name))
 
 
 def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
-    """Say what is wrong with the annotation of a parameter or variable, "" if nothing is.
+    """Return the message for an invalid annotation of a parameter or variable, "" for a valid one.
 
     Parameters
     ----------
     cls : Component class
-        Its class.
+        Class of the field.
     name : str
-        The field.
+        Name of the field.
     shape : tuple of int or callable, optional
-        As it is declared.
+        Declared shape.
     field : str
-        The function that declares it.
+        Name of the function that declares it.
     """
     annotation = inspect.get_annotations(cls).get(name)
     if isinstance(annotation, _NO_TYPES) or (isinstance(annotation, str) and not _READABLE.match(annotation)):
@@ -69,34 +69,30 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
             form = f"{name} = {field}(..., shape={annotation!r})"
         elif isinstance(annotation, str):
             form = f"{name}: Scalar = {field}(...)`, where a unit is `unit=..."
-        return f"{annotation!r} is no type: write `{form}`."
+        return f"{annotation!r} is not a type: write `{form}`."
     kind = _type_name(cls, name)
     a = "an" if field in ("input", "output") else "a"
     if kind in _REAL:
         listed = shape not in (None, ())
-        return (
-            f"{kind} is one number; with shape={shape} leave the type out, `{name} = {field}(...)`." if listed else ""
-        )
+        return f"{kind} is one number; with shape={shape} remove the type, `{name} = {field}(...)`." if listed else ""
     if kind in _WHOLE:
-        mend = f"`{name}: {kind} = structural(...)`"
-        return f"{a} {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {mend}."
+        remedy = f"`{name}: {kind} = structural(...)`"
+        return f"{a} {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {remedy}."
     if kind in _LISTED:
-        mend = f"`{name}: Vector3`, `{name}: Matrix33`, or give shape=(n,)"
-        return f"the type {kind} does not tell how many numbers: write {mend}." if shape is None else ""
+        remedy = f"`{name}: Vector3`, `{name}: Matrix33`, or give shape=(n,)"
+        return f"the type {kind} does not determine the number of entries: write {remedy}." if shape is None else ""
     if kind in _NEITHER or _is_component(cls, kind):
         what = (
-            ""
-            if kind in _NEITHER
-            else f"; a part or port stands alone, `{name} = {kind}(...)`, `{name} = port({kind})`"
+            "" if kind in _NEITHER else f"; declare a part by `{name} = {kind}(...)`, a port by `{name} = port({kind})`"
         )
         return f"{a} {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
     known = not kind.isidentifier() or kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)
-    near = "" if known else likeliest(kind, _BY_NAME)
+    near = "" if known else most_similar(kind, _BY_NAME)
     return f"the type {kind} is unknown; did you mean {near}?" if near else ""
 
 
 def _type_name(cls: type, name: str) -> str:
-    """Name of the annotation of a field without what it holds, `list` for list[float]; what an alias stands for."""
+    """Return the type name in the annotation of a field, `list` for list[float]; aliases are resolved."""
     annotation = inspect.get_annotations(cls).get(name)
     text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
     text = text.partition("[")[0].rsplit(".", 1)[-1].strip()
@@ -110,5 +106,5 @@ def _is_component(cls: type, name: str) -> bool:
 
 
 def _names(cls: type) -> dict[str, Any]:
-    """What is known in the module of a class."""
+    """Return the names in the module of a class."""
     return vars(sys.modules[cls.__module__]) if cls.__module__ in sys.modules else {}

@@ -1,8 +1,9 @@
-"""Units of sums, products and arrays: a contradiction is reported only where it is certain.
+"""Units of sums, products and arrays: only certain contradictions are reported.
 
-A literal takes the unit that the equation asks for, as a term (x == 2, x + 1) and as a factor (9.81 * h, E / 2, 1 / T),
-whatever its value: gains of 400 and of 1 are written alike. So what a literal multiplies is of unknown unit, and unknown
-units fit any other. What is declared without a unit is unknown, too, and so is what a matrix of numbers makes of a vector.
+A literal takes the unit that the equation requires, as a term (x == 2, x + 1) and as a factor (9.81 * h, E / 2, 1 / T),
+whatever its value: gains of 400 and of 1 are written alike. A product with a literal therefore has an unknown unit,
+which is compatible with every unit. So have fields declared without a unit, and products of a vector with a matrix of
+numbers.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import Any, Protocol
 import casadi as ca
 
 from acausal.errors import UnitsError
-from acausal.language.written import short
+from acausal.language.formatting import short
 from acausal.units import Dimension
 
 Unit = Dimension | tuple[Dimension | None, ...] | None
@@ -28,26 +29,26 @@ class Measured(Protocol):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape as numpy would give it."""
+        """Shape as in numpy."""
         ...
 
     def __iter__(self) -> Iterator[Any]: ...
 
 
 def common(a: Measured, b: Measured, where: str) -> Unit:
-    """Return the unit of two expressions that must have the same one, such as the terms of a sum.
+    """Return the common unit of two expressions, such as the terms of a sum.
 
     Parameters
     ----------
     a, b : Measured
-        Of one shape.
+        Expressions of equal shape.
     where : str
-        What joins them, for the message.
+        What joins the expressions, for the message.
 
     Raises
     ------
     UnitsError
-        If their units certainly differ.
+        If the units differ for certain.
     """
     if a.unit is None or b.unit is None or a.unit == b.unit:
         return b.unit if a.unit is None else a.unit
@@ -58,7 +59,7 @@ def common(a: Measured, b: Measured, where: str) -> Unit:
 
 
 def check_value(own: Measured, value: Measured) -> None:
-    """Raise UnitsError if the value of a parameter certainly has another unit than it."""
+    """Raise UnitsError if the unit of a value differs for certain from that of its parameter."""
     try:
         common(own, value, "its value")
     except UnitsError:
@@ -73,7 +74,7 @@ def of_product(a: Measured, b: Measured) -> Unit:
 
 
 def of_quotient(a: Measured, b: Measured) -> Unit:
-    """Return the unit of a / b, with a scalar b."""
+    """Return the unit of a / b for a scalar b."""
     return _combined(a, b, lambda u, v: u / v)
 
 
@@ -83,7 +84,7 @@ def of_inner_product(a: Measured, b: Measured) -> Unit:
     Raises
     ------
     UnitsError
-        If it is a sum of products that certainly differ in unit.
+        If the products in the sum differ in unit for certain.
     """
     if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension):
         return a.unit * b.unit
@@ -93,13 +94,13 @@ def of_inner_product(a: Measured, b: Measured) -> Unit:
     total = terms[0]
     for term in terms[1:]:
         total = type(total)(total.sx + term.sx, common(total, term, "terms of a scalar product"))
-    # One unknown term is as little known as the sum is certain.
+    # The sum is certain only if all its terms are.
     unknown = any(t.unit is None and not t.sx.is_zero() for t in terms)
     return None if unknown else total.unit
 
 
 def of_power(base: Measured, power: Any) -> Unit:
-    """Return the unit of a power by a number."""
+    """Return the unit of a power with a numeric exponent."""
     if not isinstance(power, int | float | Fraction) or base.unit is None:
         return None
     exact = Fraction(power).limit_denominator(1000)
@@ -109,7 +110,7 @@ def of_power(base: Measured, power: Any) -> Unit:
 
 
 def of_array(items: Sequence[Measured]) -> Unit:
-    """Return the unit of an array of entries, or of rows; entries that are 0 fit the others."""
+    """Return the unit of an array of entries or rows; zero entries are compatible with the others."""
     units = [item.unit for item in items if not (item.unit is None and item.sx.is_zero())]
     if units and isinstance(units[0], Dimension) and all(u == units[0] for u in units):
         return units[0]
@@ -129,7 +130,7 @@ def _combined(a: Measured, b: Measured, operate: Any) -> Unit:
 
 
 def _entries(value: Measured) -> list[Dimension | None]:
-    """Unit of each row."""
+    """Return the unit of each row."""
     unit = value.unit
     return list(unit) if isinstance(unit, tuple) else [unit] * value.sx.shape[0]
 

@@ -1,4 +1,4 @@
-"""Reduction: a plan of the structural stage applied to the symbols."""
+"""Symbolic reduction of a flat model by the plan of the structural analysis."""
 
 from acausal.reduce.dependence import Dependence, solution_levels
 from acausal.reduce.reduce import plan_of, reduce

@@ -1,4 +1,4 @@
-"""Write the equations of constraints and projections."""
+"""Symbolic equations of constraints and projections."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from acausal.symbols import scalars, stacked
 
 @dataclass(frozen=True)
 class Projections:
-    """The projections on the constraints, these in terms of what is integrated, and what is chosen for both.
+    """Constraints in terms of integrated variables, and the projections on them.
 
     Parameters
     ----------
     constraints : casadi.SX
-        Residuals of the constraints at all their levels, without the projection: coordinates are what is integrated.
+        Residuals of the constraints at all their levels in integrated variables, without projection.
     choice : casadi.SX
-        Numbers that are chosen when values are known: for each closure 1 if it is not redundant; for each constraint of a
-        part how much of what works on each of them counts in its place where it is; 1 if D moves with the
-        constraint Jacobian, 0 if it is constant; and the entries of D of all projections (see
-        `acausal.structure.constraints`), or factors of those of the Jacobian.
+        Symbols of numbers that are chosen numerically: for each closure, 1 if it is independent and 0 if it is
+        redundant; for each constraint of a part, the weights of the flows of all such constraints, whose weighted sum
+        vanishes if it is redundant; 1 if D varies with the constraint Jacobian, 0 if it is constant; the entries of D
+        of all projections (see `acausal.structure.coordinate_projection`), or factors of those of the Jacobian.
     coordinates, states : casadi.SX
-        Projected coordinates, and what is integrated in place of each.
+        Projected coordinates, and the integrated variable of each.
     following : casadi.SX
-        Values of the unknowns that follow explicitly from states, without the projection.
+        Values of the unknowns that follow explicitly from states, without projection.
     moves : casadi.SX
-        The entry of the choice that says whether D moves.
+        Entry of `choice` that is 1 if D varies with the constraint Jacobian.
     """
 
     constraints: ca.SX
@@ -49,30 +49,30 @@ def constrain(
     residuals: list[ca.SX],
     explicit: dict[tuple[int, int], ca.SX],
 ) -> Projections:
-    """Change the residuals of closures, append those of projections, and return the constraints themselves.
+    """Modify the residuals of closures, append those of projections, and return the constraints.
 
     Parameters
     ----------
     flat : FlatModel
         The model.
     plan : Plan
-        Its plan.
+        Solution plan of the model.
     elements : list of casadi.SX
         All unknowns.
     residuals : list of casadi.SX
-        Residuals of the extended system, without those of projections; changed in place.
+        Residuals of the extended system without projections; modified in place.
     explicit : dict of (int, int) to casadi.SX
-        Constant coefficients by (residual, unknown); changed in place.
+        Constant coefficients by (residual, unknown); modified in place.
     """
     projections = plan.constrained.projections
     coordinates = stacked([elements[p.coordinate] for p in projections])
     states = stacked([elements[p.state] for p in projections])
-    bare, following = _bare(plan, elements, residuals, explicit)
-    counts = _counting(flat, plan, elements, residuals)
-    bare, following = ca.substitute([bare, following], [coordinates], [states])
+    unprojected, following = _unprojected(plan, elements, residuals, explicit)
+    counts = _independence(flat, plan, elements, residuals)
+    unprojected, following = ca.substitute([unprojected, following], [coordinates], [states])
     moves, D = ca.SX.sym("moves"), []
     row_of = {m: k for k, m in enumerate(m for c in plan.constrained.constraints for m in c.multipliers)}
-    J = ca.jacobian(bare, states)
+    J = ca.jacobian(unprojected, states)
     for column, p in enumerate(projections):
         row = len(residuals)
         entries = [ca.SX.sym(f"D{len(D) + k}") for k in range(len(p.multipliers))]
@@ -86,13 +86,14 @@ def constrain(
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
     choice = ca.vertcat(*counts, moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
-    return Projections(bare, choice, coordinates, states, following, moves)
+    return Projections(unprojected, choice, coordinates, states, following, moves)
 
 
-def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
-    """Give each closure a symbol, 1 where it counts, 0 where it is redundant: the flow that works on it is 0 then.
+def _independence(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
+    """Give each closure a symbol: 1 if it is independent, 0 if it is redundant, where its flow is 0 instead.
 
-    In place of a redundant constraint of a part a sum of what works on all of them is 0, over symbols that follow.
+    A redundant constraint of a part is replaced by a weighted sum of the flows of all such constraints; return the
+    symbols of the closures, then the weights.
     """
     duals = {c.row: c.dual for c in flat.loops.closures}
     counts = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
@@ -111,10 +112,10 @@ def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: lis
     return [*counts.values(), *scalars(ca.vec(shares))]
 
 
-def _bare(
+def _unprojected(
     plan: Plan, elements: list[ca.SX], residuals: list[ca.SX], explicit: dict[tuple[int, int], ca.SX]
 ) -> tuple[ca.SX, ca.SX]:
-    """Return the constraints at all levels, and what follows from states, in terms of states."""
+    """Return the constraints at all levels, and the unknowns that follow from states, in terms of states."""
     constrained = plan.constrained
     rows = [row for c in constrained.constraints for row in c.rows]
     column = stacked([residuals[row] for row in rows])

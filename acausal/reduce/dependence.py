@@ -1,4 +1,4 @@
-"""Which algebraic unknowns a value needs, and the order in which they are solved for."""
+"""Dependence of values on algebraic unknowns, and the order of solution."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Dependence:
     Parameters
     ----------
     alg, z : casadi.SX
-        Residuals and algebraic unknowns, as many.
+        Residuals and algebraic unknowns, equal in number.
     """
 
     def __init__(self, alg: ca.SX, z: ca.SX) -> None:
@@ -36,7 +36,7 @@ class Dependence:
         return {k for k in found if k is not None}
 
     def needed(self, wanted: Iterable[int]) -> tuple[np.ndarray, np.ndarray]:
-        """Return all unknowns that must be solved for to know the wanted ones, ascending, and their equations."""
+        """Return all unknowns on which the wanted ones depend, themselves included, ascending, and their equations."""
         stack = list(wanted)
         seen = set(stack)
         while stack:
@@ -48,7 +48,7 @@ class Dependence:
         return np.array(unknowns, dtype=int), np.array([self._equation_of[k] for k in unknowns], dtype=int)
 
     def needing(self, equations: Iterable[int]) -> set[int]:
-        """Return the unknowns that cannot be solved for without some equations."""
+        """Return the unknowns that depend on some equations."""
         wanted = set(equations)
         needed_by: list[list[int]] = [[] for _ in self._rows]
         for unknown, equation in enumerate(self._equation_of):
@@ -64,7 +64,7 @@ class Dependence:
 
 
 def solution_levels(J: ca.SX, unknowns: ca.SX) -> tuple[Level, ...]:
-    """Return the order in which equations are solved.
+    """Return the levels of simultaneous solution, in order.
 
     Parameters
     ----------

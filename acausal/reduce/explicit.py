@@ -1,4 +1,4 @@
-"""Solve equations for unknowns that occur linearly with constant coefficients."""
+"""Explicit solution for unknowns that occur linearly with constant coefficients."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def solve_explicit(
 ) -> ca.SX:
     """Solve each (unknown, equation) for its unknown: v = -r(v = 0) / c.
 
-    Rows that do not contain each other's unknown are treated in one substitution.
+    Rows that do not contain each other's unknowns share one substitution (greedy colouring).
     """
     owner = {v: k for k, (v, _) in enumerate(pairs)}
     colour = [0] * len(pairs)

@@ -1,4 +1,4 @@
-"""reduce(): carry out a Plan on the symbols of a flat model."""
+"""Reduction of a flat model: symbolic execution of its solution plan."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from acausal.language.functions import initial, time
 from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
 from acausal.reduce.explicit import solve_explicit
-from acausal.reduce.incidence import Linear, jacobian, system_of
-from acausal.reduce.inputs import refuse_unknown_rates
+from acausal.reduce.flat_incidence import Incidence, jacobian, system_of
+from acausal.reduce.input_derivatives import refuse_differentiated_inputs
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.structure import Plan, StructuralSingularity, Subsystem, analyse
 from acausal.symbols import scalars
 
 
-def plan_of(flat: FlatModel) -> tuple[Plan, Linear]:
-    """Analyse the structure of a flat model.
+def plan_of(flat: FlatModel) -> tuple[Plan, Incidence]:
+    """Return the solution plan of a flat model, and the Jacobian of its residuals.
 
     Raises
     ------
@@ -39,29 +39,29 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Linear]:
         surplus = len(flat.equations.origins) - (len(flat.unknowns.names) - chains)
         kind = UnbalancedModelError if surplus else StructurallySingularError
         raise kind(explain(flat, singularity, surplus)) from None
-    refuse_unknown_rates(flat, plan)
+    refuse_differentiated_inputs(flat, plan)
     return plan, linear
 
 
 def refuse_implicit(plan: Plan) -> None:
-    """Refuse constraints through variables that do not follow explicitly from states: the first block that gives such ones."""
+    """Raise StructuralSingularity for a constraint through variables that do not follow explicitly from states."""
     implicit = set(plan.constrained.reached).difference(v for v, _ in plan.constrained.following)
     if implicit:
         block = next(block for block in plan.blocks if implicit.intersection(block.variables))
         raise StructuralSingularity(under=(Subsystem.of(block.equations, block.variables),))
 
 
-def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
-    """Differentiate, solve explicitly and substitute as the plan says.
+def reduce(flat: FlatModel, plan: Plan, linear: Incidence) -> ReducedModel:
+    """Return the reduced model: differentiate, solve explicitly and substitute by the plan.
 
     Parameters
     ----------
     flat : FlatModel
         The model.
     plan : Plan
-        From `plan_of`.
-    linear : Linear
-        Jacobian of its residuals, from `plan_of`.
+        Plan from `plan_of`.
+    linear : Incidence
+        Jacobian of the residuals, from `plan_of`.
     """
     created = [ca.SX.sym(f"der{k}") for k in plan.created]
     written = flat.unknowns.symbols.numel() + len(created)
@@ -92,7 +92,7 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
 
 
 def _switching(flat: FlatModel, plan: Plan, residuals: list[ca.SX]) -> tuple[tuple[ca.SX, Origin], ...]:
-    """Residuals that are differentiated and that switches change."""
+    """Return the differentiated residuals that depend on switches, with their origins."""
     constants, origins = flat.discontinuities.constants, flat.equations.origins
     if not constants.numel():
         return ()
@@ -108,7 +108,7 @@ def _switching(flat: FlatModel, plan: Plan, residuals: list[ca.SX]) -> tuple[tup
 
 
 def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:
-    """Names of all unknowns; what is integrated in place of a coordinate has its name."""
+    """Return the names of all unknowns; an integrated variable has the name of its coordinate."""
     names = list(flat.unknowns.names)
     for k in plan.created:
         names.append(f"der({names[k]})")
@@ -127,9 +127,9 @@ def _inline(symbols: ca.SX, values: ca.SX, ode: ca.SX, alg: ca.SX) -> tuple[ca.S
 
 
 def _differentiate(
-    flat: FlatModel, plan: Plan, unknowns: ca.SX, linear: Linear
+    flat: FlatModel, plan: Plan, unknowns: ca.SX, linear: Incidence
 ) -> tuple[list[ca.SX], dict[tuple[int, int], ca.SX]]:
-    """Append the differentiated equations, all of one level in one call."""
+    """Return the residuals with the differentiated ones appended, and the constant coefficients."""
     elements = scalars(unknowns)
     seeds = [elements[d] if d >= 0 else ca.SX(0) for d in plan.system.derivative]
     for k, expression in flat.unknowns.declared.items():
@@ -155,7 +155,7 @@ def _differentiate(
 
 
 def _orders(plan: Plan, first: int) -> list[list[int]]:
-    """Rows of the first derivatives of equations, of the second ones, and so on."""
+    """Return the rows of first derivatives, of second derivatives, and so on."""
     order, found = dict[int, int](), dict[int, list[int]]()
     for row, source in enumerate(plan.differentiated, first):
         order[row] = order.get(source, 0) + 1

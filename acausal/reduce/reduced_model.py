@@ -1,4 +1,4 @@
-"""The reduced model: a semi-explicit DAE of index 1, and how everything else follows from its unknowns."""
+"""Reduced model: a semi-explicit DAE of index 1, and the other variables in its unknowns."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from acausal.structure import Plan
 
 @dataclass(frozen=True)
 class Running:
-    """A reduced model while it runs: the flag of the initial system is 0.
+    """Equations of a reduced model during a run, where the flag `initial` is 0.
 
     Parameters
     ----------
     reduced : ReducedModel
         The model.
     ode, alg : casadi.SX
-        Its equations.
+        Equations of the model.
     constraints, following : casadi.SX
-        Residuals of its constraints, and values that follow from states; see `Projections`.
+        Residuals of the constraints, and values that follow from states; see `Projections`.
     """
 
     reduced: ReducedModel
@@ -36,7 +36,7 @@ class Running:
     following: ca.SX
 
     def resolve(self, expression: ca.SX, unprojected: bool = False) -> ca.SX:
-        """Express anything of the model in x, z, parameters and time; see `ReducedModel.resolve`."""
+        """Return an expression of the model in x, z, parameters and time; see `ReducedModel.resolve`."""
         return ca.substitute(self.reduced.resolve(expression, unprojected), initial.sx, 0)
 
 
@@ -47,23 +47,23 @@ class ReducedModel:
     Parameters
     ----------
     flat : FlatModel
-        Where it comes from.
+        The flat model.
     plan : Plan
-        The structural decisions.
+        Solution plan.
     unknowns : casadi.SX
         All unknowns of the extended system.
     names : tuple of str
-        Their names.
+        Names of the unknowns.
     x, z, ode, alg : casadi.SX
         States, algebraic unknowns and the equations of the integrated system.
     definitions : (casadi.SX, casadi.SX)
-        Unknowns that were assigned or are observed, in order of evaluation, and what they are.
+        Assigned and observed unknowns, in order of evaluation, and their expressions.
     projections : Projections
-        Projections on the constraints, which hold at several levels.
+        Constraints, and projections on them.
     continuous : tuple of (casadi.SX, Origin)
-        What is differentiated although switches change it: it must not jump.
+        Differentiated expressions that depend on switches: they must not jump.
     residuals : tuple of casadi.SX
-        What is 0 in the extended system, whatever of it was substituted.
+        Residuals of the extended system before substitution.
     """
 
     flat: FlatModel
@@ -96,35 +96,35 @@ class ReducedModel:
 
     @cached_property
     def constants(self) -> ca.SX:
-        """Constants of a segment of integration: switches, discrete variables, then the choice."""
+        """Constants between events: switches, discrete variables, the choice of projections, and the feedback."""
         return ca.vertcat(self.flat.discontinuities.constants, self.projections.choice, feedback.sx)
 
     @cached_property
     def running(self) -> Running:
-        """The model where the flag of the initial system is 0."""
+        """Equations during a run, where the flag `initial` is 0."""
         equations = [self.ode, self.alg, self.projections.constraints, self.projections.following]
         return Running(self, *ca.substitute(equations, [initial.sx], [ca.SX(0)]))
 
     @cached_property
     def dependence(self) -> Dependence:
-        """Which algebraic unknowns a value needs."""
+        """Dependence of values on algebraic unknowns."""
         return Dependence(self.running.alg, self.z)
 
     @cached_property
     def _resolved(self) -> ca.SX:
-        """Definitions in terms of x, z, parameters and time alone."""
+        """Definitions in terms of x, z, parameters and time."""
         symbols, expressions = self.definitions
         return ca.substitute_inplace([symbols], [expressions], [])[0][0] if symbols.numel() else expressions
 
     def resolve(self, expression: ca.SX, unprojected: bool = False) -> ca.SX:
-        """Express anything of the model in x, z, parameters and time.
+        """Return an expression of the model in x, z, parameters and time.
 
         Parameters
         ----------
         expression : casadi.SX
-            In original symbols of the model or in remaining unknowns.
+            Expression in original symbols of the model or in remaining unknowns.
         unprojected : bool
-            Whether to take coordinates as what is integrated in their place, which they are where the multipliers are 0.
+            True to replace coordinates by their integrated variables, which equal them where the multipliers are 0.
         """
         was, becomes = self.flat.unknowns.eliminated
         first = ca.substitute([expression], [was], [becomes])

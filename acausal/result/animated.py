@@ -16,7 +16,7 @@ from acausal.animation.page import html
 from acausal.animation.scene import Plot, Run, shown
 from acausal.errors import AcausalError, DeclarationError, ExportError
 from acausal.language.component import Component
-from acausal.language.values import shown as code
+from acausal.language.value_checks import shown as code
 from acausal.result.files import check_writable, shown_name, whole
 from acausal.result.lookup import Key, Tree, find
 from acausal.result.plots import canvas

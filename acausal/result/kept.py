@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.tree import join, walk
+from acausal.flatten.component_tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Expr

@@ -12,12 +12,12 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.tree import join, walk
+from acausal.flatten.component_tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Equation, Expr
 from acausal.language.functions import time
-from acausal.language.values import shown, shown_or_kind
+from acausal.language.value_checks import shown, shown_or_kind
 from acausal.result.unknown import unknown
 from acausal.symbols import vec
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.language.quantities import refused
+from acausal.language.quantities import misplaced_quantity
 from acausal.result.kept import Kept
 from acausal.result.lookup import Quantity
 from acausal.units import parse as unit_of
@@ -25,7 +25,7 @@ def checked_times(time: Any) -> np.ndarray:
     DeclarationError
         If they are none.
     """
-    if wrong := refused(time):
+    if wrong := misplaced_quantity(time):
         raise DeclarationError(f"the time is {wrong}")
     try:
         times = np.array(time, dtype=float)
@@ -63,7 +63,7 @@ def checked_columns(
         if not measured and path not in known:
             raise DeclarationError(f'`{path}` needs an array and its unit: (array, "m/s")')
         given, unit = entry if measured else (entry, "")
-        if wrong := refused(given):
+        if wrong := misplaced_quantity(given):
             raise DeclarationError(f"`{path}` is {wrong}")
         try:
             array = np.array(given, dtype=float)

@@ -11,9 +11,9 @@ import numpy as np
 
 from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError, caution
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.result.kept import Kept, keep
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
 from acausal.result.no_numbers import no_numbers
@@ -96,7 +96,7 @@ class Result:
     def _model(self) -> str:
         return self.tree.model if isinstance(self.tree, Kept) else type(self.tree).__name__
 
-    @alone
+    @exclusive
     def __reduce__(self) -> tuple[Any, ...]:
         """Keep the values of all quantities, and nothing of the model."""
         live = isinstance(self.tree, Component)
@@ -112,7 +112,7 @@ class Result:
         own = deepcopy(self._stats, memo)
         return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title, self._more)
 
-    @alone
+    @exclusive
     def __getitem__(self, key: Key) -> np.ndarray:
         """Return a quantity over time.
 
@@ -146,8 +146,8 @@ class Result:
     def _ipython_key_completions_(self) -> list[str]:
         return list(self)
 
-    @fitting
-    @alone
+    @checked_arguments
+    @exclusive
     def series(self, *keys: Key) -> list[Series]:
         """Return scalars with name and unit; arrays entry by entry, `name[0]`, `name[1]`, ...
 
@@ -174,7 +174,7 @@ class Result:
             s.name: float(self.time[k]) for s in self.series(*keys) for k in np.flatnonzero(~np.isfinite(s.values))[:1]
         }
 
-    @fitting
+    @checked_arguments
     def to_csv(self, path: str | Path, *keys: Key) -> None:
         """Write a table, `time` first, then the outputs or `keys`, with all digits.
 
@@ -185,15 +185,15 @@ class Result:
         """
         write_csv(path, self._columns(keys))
 
-    @fitting
+    @checked_arguments
     def to_dataframe(self, *keys: Key) -> pd.DataFrame:
         """Return a table, `time` first, then the outputs or `keys`."""
         import pandas as pd
 
         return pd.DataFrame(self._columns(keys))
 
-    @fitting
-    @alone
+    @checked_arguments
+    @exclusive
     def plot(self, *keys: Key, path: str | Path | None = None, show: bool | None = None) -> Figure:
         """Draw the outputs or `keys` over time, one axes for each unit.
 
@@ -226,8 +226,8 @@ class Result:
         """Return what a key means, of the model or beside it."""
         return find(self._more if self._more and self._beside(key) else self.tree, key)
 
-    @fitting
-    @alone
+    @checked_arguments
+    @exclusive
     def animate(
         self,
         path: str | Path,
@@ -266,7 +266,7 @@ class Result:
 
         write({self.title or self._model: self}, path, Asked(frames, plots, values, title, deformation))
 
-    @alone
+    @exclusive
     def _repr_html_(self) -> str | None:
         """Show a notebook how the machine moves, where there is something to be seen."""
         from acausal.result.animated import in_notebook

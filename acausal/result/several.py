@@ -7,16 +7,16 @@ from pathlib import Path
 
 from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
-from acausal.language.values import shown
-from acausal.locks import alone
+from acausal.language.call_arguments import checked_arguments
+from acausal.language.value_checks import shown
+from acausal.locks import exclusive
 from acausal.result.animated import Asked, write
 from acausal.result.lookup import Key
 from acausal.result.result import Result
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def animate(
     results: Mapping[str, Result],
     path: str | Path,

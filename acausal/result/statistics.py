@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Generic, TypeVar
 
-from acausal.locks import alone
+from acausal.locks import exclusive
 
 Value = TypeVar("Value")
 
@@ -31,7 +31,7 @@ class Later(Generic[Value]):
             return self._default
         values: dict[str, Any] = vars(instance)
         if callable(later := values[self._name]):
-            values[self._name] = alone(later)()
+            values[self._name] = exclusive(later)()
         return values[self._name]
 
     def __set__(self, instance: object, value: Value | Callable[[], Value]) -> None:

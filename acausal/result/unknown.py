@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 
-from acausal.flatten.tree import members, walk
+from acausal.flatten.component_tree import members, walk
 from acausal.language.component import Component
 from acausal.language.expression import Equation
 from acausal.language.pending import PENDING, Pending
-from acausal.nearest import missing
+from acausal.nearest import suggestions
 from acausal.result.files import shown_name
 
 FILES = (".png", ".svg", ".pdf", ".csv")
@@ -41,7 +41,7 @@ def unknown(path: str, known: list[str], tree: Component | None = None, kind: st
         if tree
         else kind
     )
-    mend = missing(path, known, kind)
+    mend = suggestions(path, known, kind)
     if mend == "." and tree:
         mend = _nearest_part(path, tree)
     if plain in known and plain != path and "]." not in path:

@@ -11,9 +11,9 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.expression import Expr, as_expr
-from acausal.locks import alone
+from acausal.locks import exclusive
 
 Step = Callable[[Expr, Expr], tuple[Any, Any]]
 
@@ -51,8 +51,8 @@ class CompiledStep:
     [0.5, 0.25]
     """
 
-    @fitting
-    @alone
+    @checked_arguments
+    @exclusive
     def __init__(self, step: Step, states: int, inputs: int) -> None:
         began = clock.perf_counter()
         self._step = _compiled(step, states, inputs)
@@ -65,7 +65,7 @@ class CompiledStep:
         """How many other values a step gives."""
         return self._step.size1_out(1)
 
-    @alone
+    @exclusive
     def __call__(self, start: Any, inputs: Any) -> tuple[np.ndarray, np.ndarray]:
         """Take one step for each row of inputs.
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, model_of, ready
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.result import Result
 from acausal.result.lookup import find, names
 from acausal.result.made import checked_columns, checked_outputs, checked_times, kept_of
@@ -19,8 +19,8 @@ from acausal.solve.given import evaluator_of
 from acausal.units import parse
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def result_of(
     time: Any,
     values: Mapping[str, Any],

@@ -10,7 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.errors import caution
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
 from acausal.language.functions import time
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem

@@ -13,10 +13,10 @@ import scipy
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
-from acausal.flatten.inputs import inputs_of
-from acausal.language.arguments import fitting
+from acausal.flatten.model_inputs import inputs_of
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
@@ -89,8 +89,8 @@ class Linearization:
         return np.linalg.eig(self.A)
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def linearize(
     model: Component | CompiledModel,
     *,

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
-from acausal.locks import alone
+from acausal.language.call_arguments import checked_arguments
+from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.compiled_step import CompiledStep, Step
 from acausal.solve.integrate.settings import Progress
@@ -41,8 +41,8 @@ class March:
     seconds: float
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def march(
     step: Step,
     start: Any,

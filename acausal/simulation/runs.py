@@ -10,9 +10,9 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, ready
 from acausal.errors import DeclarationError, SimulationError
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.structural import largest
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.result import Result
@@ -78,7 +78,7 @@ class Runs:
             except SimulationError as failure:
                 found = failure
             self.results[numerics] = found
-            self._note(numerics, *((found, "") if isinstance(found, Result) else (found.result, found.said())))
+            self._note(numerics, *((found, "") if isinstance(found, Result) else (found.result, found.text())))
         return self.results[numerics]
 
     def sizes(self, number: int) -> dict[str, int]:

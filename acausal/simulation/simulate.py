@@ -7,9 +7,9 @@ from typing import Any
 
 from acausal.compiler import CompiledModel, ready
 from acausal.errors import InitializationError, SimulationError, caution
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.result import Result
 from acausal.simulation.accuracy import reach
 from acausal.simulation.asked import planned
@@ -18,8 +18,8 @@ from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def simulate(
     model: Component | CompiledModel,
     *,

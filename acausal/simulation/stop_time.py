@@ -16,12 +16,12 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.pending import PENDING, Pending
-from acausal.language.values import shown
-from acausal.locks import alone
+from acausal.language.value_checks import shown
+from acausal.locks import exclusive
 from acausal.symbols import stacked
 
 
-@alone
+@exclusive
 def own_stop_time(model: Component, values: Mapping[str, Any] | None = None) -> float | None:
     """Return the `stop_time` of a model in s, None where it has none.
 

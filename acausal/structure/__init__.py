@@ -3,8 +3,8 @@
 from acausal.structure.analyse import analyse
 from acausal.structure.block import Block
 from acausal.structure.blt import block_triangular
-from acausal.structure.conditions import Completion, complete
-from acausal.structure.constraints import Constrained, Constraint, Projection
+from acausal.structure.completion import Completion, complete
+from acausal.structure.coordinate_projection import Constrained, Constraint, Projection
 from acausal.structure.dulmage_mendelsohn import DulmageMendelsohn, components, decompose
 from acausal.structure.levels import Level, levels
 from acausal.structure.plan import Plan

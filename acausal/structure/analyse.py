@@ -1,10 +1,10 @@
-"""The structural stage: from incidence to a plan of solution."""
+"""Structural analysis: from the incidence of a system to a solution plan."""
 
 from __future__ import annotations
 
 from acausal.structure.blt import block_triangular
 from acausal.structure.check import check
-from acausal.structure.constraints import Constrained, constrain
+from acausal.structure.coordinate_projection import Constrained, constrain
 from acausal.structure.extension import Extension
 from acausal.structure.observed import split_observed
 from acausal.structure.ordering import order_unknowns
@@ -17,16 +17,17 @@ from acausal.structure.tearing import tear
 
 
 def _reduce(system: System) -> tuple[Extension, Constrained, StateSelection]:
-    """Differentiate, project on what constrains the states, and match."""
+    """Differentiate equations, project coordinates on the constraints, and match."""
     extension = pantelides(system)
     constrained = constrain(extension)
     lower = extension.lower.difference(row for c in constrained.constraints for row in c.rows)
-    # Otherwise one level of a projected coordinate could follow from others, and the level below it could not.
+    # Projected states stay states: otherwise a level of a projected coordinate could be algebraic although the level
+    # below is not.
     integrated = {p.state for p in constrained.projections}
     selection = select_states(extension.system(), lower, integrated=integrated)
     if not selection.left:
         return extension, constrained, selection
-    # Constraints that reach too few states: some state must follow from the others by a fixed choice.
+    # The constraints hold too few states: select dependent states through variable coefficients as well.
     extension = pantelides(system)
     selection = select_states(extension.system(), extension.lower, constant=False)
     if selection.left:
@@ -37,7 +38,7 @@ def _reduce(system: System) -> tuple[Extension, Constrained, StateSelection]:
 
 
 def analyse(system: System) -> Plan:
-    """Reduce the index, choose states, and order, split and tear the equations.
+    """Reduce the index, select the states, and order, split and tear the equations.
 
     Raises
     ------

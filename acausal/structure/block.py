@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Block:
-    """Equations to be solved together; `equations[i]` is matched with `variables[i]`."""
+    """Equations to be solved simultaneously; `equations[i]` is matched with `variables[i]`."""
 
     equations: tuple[int, ...]
     variables: tuple[int, ...]

@@ -17,7 +17,7 @@ def block_triangular(rows: Rows, pairs: Iterable[tuple[int, int]]) -> tuple[Bloc
     Parameters
     ----------
     rows : sequence of sequence of int
-        Variables of every equation; variables that no pair has are known.
+        Variables of every equation; variables without a pair are known.
     pairs : iterable of (int, int)
         Matched (variable, equation).
 
@@ -36,7 +36,7 @@ def block_triangular(rows: Rows, pairs: Iterable[tuple[int, int]]) -> tuple[Bloc
 
 
 def _topological(needs: list[list[int]], labels: list[int], members: list[list[int]]) -> Iterable[int]:
-    """Components after all that they need (Kahn 1962), the one with the lowest member first."""
+    """Yield the components in topological order (Kahn 1962), the one with the lowest member first."""
     users: list[list[int]] = [[] for _ in members]
     missing = [0] * len(members)
     for label, needed in zip(labels, needs, strict=True):

@@ -1,4 +1,4 @@
-"""Structural singularity, before any equation is differentiated."""
+"""Test for structural singularity before index reduction."""
 
 from __future__ import annotations
 

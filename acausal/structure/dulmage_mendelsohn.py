@@ -1,4 +1,4 @@
-"""Dulmage-Mendelsohn decomposition: where a system has too many equations, and where too few."""
+"""Dulmage-Mendelsohn decomposition into over-, well- and under-determined parts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from acausal.structure.singularity import Subsystem
 
 @dataclass(frozen=True)
 class DulmageMendelsohn:
-    """The three parts of the coarse decomposition; none depends on the matching it was found with."""
+    """The three parts of the coarse decomposition, which do not depend on the matching."""
 
     over: Subsystem
     well: Subsystem
@@ -22,7 +22,7 @@ class DulmageMendelsohn:
 
 
 def decompose(rows: Rows, n_variables: int) -> DulmageMendelsohn:
-    """Coarse decomposition from a maximum matching (Dulmage & Mendelsohn 1958; Pothen & Fan 1990)."""
+    """Return the coarse decomposition from a maximum matching (Dulmage & Mendelsohn 1958; Pothen & Fan 1990)."""
     matching = maximum_matching(rows, n_variables)
     free_equations = [e for e, variable in enumerate(matching.variable_of) if variable < 0]
     free_variables = [v for v, equation in enumerate(matching.equation_of) if equation < 0]
@@ -38,7 +38,7 @@ def decompose(rows: Rows, n_variables: int) -> DulmageMendelsohn:
 
 
 def components(rows: Rows, part: Subsystem) -> tuple[Subsystem, ...]:
-    """Connected components of `part`, smallest first (ties: lowest equation, then lowest variable)."""
+    """Return the connected components of `part`, smallest first (ties: lowest equation, then lowest variable)."""
     position = {variable: len(part.equations) + k for k, variable in enumerate(part.variables)}
     n = len(position) + len(part.equations)
     graph = [[position[v] for v in rows[e] if v in position] for e in part.equations] + [[] for _ in position]
@@ -53,7 +53,7 @@ def components(rows: Rows, part: Subsystem) -> tuple[Subsystem, ...]:
 
 
 def _reach(free: Iterable[int], adjacency: Rows, partner: Sequence[int]) -> tuple[list[int], set[int]]:
-    """Vertices on alternating paths from `free` vertices: those of their own side, and those of the other."""
+    """Return the vertices on alternating paths from `free` vertices, on their side and on the other side."""
     own, other = list(free), set()
     for vertex in own:
         for neighbour in adjacency[vertex]:

@@ -1,4 +1,4 @@
-"""A system that grows by the derivatives of its equations."""
+"""System extended by derivatives of its equations."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Extension:
         self.levels = [[e] for e in range(system.n_equations)]
 
     def rate(self, variable: int) -> int:
-        """Time derivative of an undeclared variable, created if it is missing."""
+        """Return the time derivative of a variable without declared derivative; create it if it is missing."""
         if self.derivative[variable] < 0:
             self.derivative[variable] = self.add_variable(preference=min(self.preference[variable], 0))
             self.created.append(variable)
@@ -36,7 +36,7 @@ class Extension:
         row, explicit = self.rows[equation], self.explicit[equation]
         rates = {variable: self.rate(variable) for variable in row if variable not in self.declared}
         expressions = [v for variable in row for v in self.declared.get(variable, ())]
-        # A rate that also occurs in a coefficient or in a declared expression need not be linear.
+        # A rate that also occurs in a coefficient or in a declared expression may occur nonlinearly.
         hidden = set(row).difference(explicit).union(expressions)
         self.rows.append(tuple(dict.fromkeys((*row, *rates.values(), *expressions))))
         solvable = {v: rate for v, rate in rates.items() if v in explicit and rate not in hidden}
@@ -48,9 +48,9 @@ class Extension:
         self.levels[base].append(len(self.rows) - 1)
 
     def differentiate_closure(self, base: int) -> None:
-        """Differentiate a closure until it holds a variable without derivative, or nothing new.
+        """Differentiate a closure until it contains a variable without derivative, or no new variable.
 
-        There its substitute may enter.
+        Its substitute is added at that level.
         """
         seen: set[int] = set()
         while not seen.issuperset(row := self.rows[self.levels[base][-1]]):
@@ -63,12 +63,12 @@ class Extension:
         self.forbid(top)
 
     def forbid(self, equation: int) -> None:
-        """Let no variable be solved for from an equation alone."""
+        """Exclude an equation from explicit solution for a variable."""
         self.explicit[equation] = self.monic[equation] = self.pivots[equation] = frozenset()
 
     @property
     def lower(self) -> set[int]:
-        """Equations of which the derivative is in the system too."""
+        """Equations whose derivative is in the system."""
         return {e for levels in self.levels for e in levels[:-1]}
 
     def add_variable(self, derivative: int = -1, preference: int = 0) -> int:
@@ -87,7 +87,7 @@ class Extension:
         return len(self.rows) - 1
 
     def system(self) -> System:
-        """The extended system."""
+        """Return the extended system."""
         return System(
             tuple(self.rows),
             tuple(self.explicit),

@@ -1,4 +1,4 @@
-"""Bipartite incidence in the forms that the algorithms want."""
+"""Bipartite incidence of equations and variables in several representations."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Rows = Sequence[Sequence[int]]
 
 
 def sparse(rows: Rows, n_columns: int) -> scipy.sparse.csr_array:
-    """Pattern of `rows` as a matrix of ones.
+    """Return the pattern of `rows` as a matrix of ones.
 
     Returns
     -------
@@ -28,7 +28,7 @@ def sparse(rows: Rows, n_columns: int) -> scipy.sparse.csr_array:
 
 
 def transpose(rows: Rows, n_columns: int) -> list[list[int]]:
-    """Ascending rows in which each of the `n_columns` columns occurs."""
+    """Return the rows that contain each of the `n_columns` columns, ascending."""
     columns: list[list[int]] = [[] for _ in range(n_columns)]
     for i, row in enumerate(rows):
         for j in row:
@@ -37,7 +37,7 @@ def transpose(rows: Rows, n_columns: int) -> list[list[int]]:
 
 
 def chains(derivative: Sequence[int]) -> list[list[int]]:
-    """Each variable that is not a derivative, followed by its successive derivatives."""
+    """Return each variable that is not a derivative, followed by its successive derivatives."""
     derived = set(derivative)
     result = []
     for variable in range(len(derivative)):
@@ -50,7 +50,7 @@ def chains(derivative: Sequence[int]) -> list[list[int]]:
 
 
 def lowest(derivative: Sequence[int]) -> list[int]:
-    """Variable from which each of the (n_variables,) variables derives: the lowest of its chain."""
+    """Return the lowest variable of the derivative chain of each variable."""
     root = list(range(len(derivative)))
     for chain_ in chains(derivative):
         for variable in chain_:

@@ -1,4 +1,4 @@
-"""Levels of a block triangular system: sets of blocks of which each is solved at once, one after the other."""
+"""Levels of a block triangular system: sets of blocks, each solved simultaneously, one after the other."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from acausal.structure.incidence import Rows
 
 @dataclass(frozen=True)
 class Level:
-    """Equations that are solved at once for as many variables, in ascending order; once is enough if they are linear."""
+    """Equations solved simultaneously for as many variables, both ascending; linear ones in one Newton step."""
 
     equations: tuple[int, ...]
     variables: tuple[int, ...]
@@ -19,21 +19,21 @@ class Level:
 
 
 def levels(blocks: Sequence[Block], rows: Rows, products: Iterable[tuple[int, int, int]]) -> tuple[Level, ...]:
-    """Join blocks as long as what is joined stays linear in its own variables.
+    """Merge blocks as long as the merged system stays linear in its own variables.
 
     Parameters
     ----------
     blocks : sequence of Block
-        Blocks in an order in which they can be solved.
+        Blocks in order of solution.
     rows : sequence of sequence of int
         Variables of every equation.
     products : iterable of (int, int, int)
-        Equation, and two variables by which its second derivative is not zero; any order, either way round.
+        Equation and two variables whose mixed second derivative is not zero, in any order.
 
     Returns
     -------
     levels : tuple of Level
-        Each needs only those before it. Blocks that are not linear by themselves share levels with none that is.
+        Levels in order of solution. Nonlinear blocks share no level with linear ones.
     """
     of = {variable: k for k, block in enumerate(blocks) for variable in block.variables}
     together: dict[int, set[tuple[int, int]]] = {}
@@ -47,7 +47,7 @@ def levels(blocks: Sequence[Block], rows: Rows, products: Iterable[tuple[int, in
         pairs = together.get(k, set())
         linear.append((k, k) not in pairs)
         if linear[k]:
-            # Linear in a product of two variables once one of them is known.
+            # A product of two variables is linear as soon as one of them is known.
             first = [min(height[m] for m in pair if m != k) for pair in pairs]
             height.append(max([*(height[m] + (not linear[m]) for m in needed), *(h + 1 for h in first)], default=0))
         else:

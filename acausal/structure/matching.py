@@ -1,4 +1,4 @@
-"""Maximum bipartite matching, at once and by one more vertex."""
+"""Maximum bipartite matching, and its augmentation by one vertex."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from acausal.structure.incidence import Rows
 
 @dataclass(frozen=True)
 class Matching:
-    """Pairs of equations and variables; -1 where there is no partner.
+    """Matched pairs of equations and variables; -1 for an unmatched one.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ class Matching:
 
 @dataclass(frozen=True)
 class Augmentation:
-    """Outcome of one search for a path: whether it found one, and the vertices of both sides that it visited."""
+    """Result of a search for an augmenting path: its success, and the visited vertices of both sides."""
 
     found: bool
     left: list[int]
@@ -33,9 +33,9 @@ class Augmentation:
 
 
 def maximum_matching(rows: Rows, n_variables: int) -> Matching:
-    """Match as many equations as possible: short ones first, each with the first free variable, then by augmenting paths.
+    """Return a maximum matching: greedy with short equations first, then by augmenting paths.
 
-    The search of scipy for all at once takes exponentially long on some chains.
+    The algorithm of scipy takes exponential time on some chains.
     """
     matching = Matching([-1] * len(rows), [-1] * n_variables)
     alone = []
@@ -60,18 +60,18 @@ def augment(
     left_of: list[int],
     exhausted: Collection[int] = (),
 ) -> Augmentation:
-    """Match the left vertex `start` too, along a shortest augmenting path (Berge 1957, breadth first).
+    """Match the left vertex `start` along a shortest augmenting path (Berge 1957; breadth-first search).
 
     Parameters
     ----------
     start : int
-        Left vertex without partner.
+        Unmatched left vertex.
     adjacency : sequence of sequence of int
-        Right vertices next to each left vertex.
+        Right neighbours of each left vertex.
     right_of, left_of : list of int
         Partners of the left and of the right vertices, changed in place if a path is found.
     exhausted : collection of int
-        Right vertices from which no free one can be reached.
+        Right vertices from which no unmatched one can be reached.
 
     """
     reached_from: dict[int, int] = {}

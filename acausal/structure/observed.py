@@ -1,4 +1,4 @@
-"""Split of the blocks into those that the integration needs and those evaluated after it."""
+"""Separation of the blocks that are evaluated after the integration."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from acausal.structure.system import System
 def split_observed(
     system: System, states: Collection[int], blocks: Sequence[Block]
 ) -> tuple[list[Block], list[tuple[int, int]]]:
-    """Separate single explicit equations that no state derivative depends on (backward reachability).
+    """Separate scalar explicit equations on which no state derivative depends (backward reachability).
 
     Returns
     -------

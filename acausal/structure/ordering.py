@@ -1,4 +1,4 @@
-"""Order of the integrated unknowns that keeps the factors of its Jacobian sparse."""
+"""Fill-reducing order of the algebraic unknowns."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from acausal.structure.system import System
 def order_unknowns(
     system: System, algebraic: Sequence[int], residuals: Sequence[int], assigned: Sequence[tuple[int, int]]
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Pair unknowns with equations and order the pairs by minimum degree (Liu 1985, of SuperLU).
+    """Match unknowns with equations and order the pairs by minimum degree (Liu 1985, in SuperLU).
 
     Parameters
     ----------
@@ -23,12 +23,12 @@ def order_unknowns(
     algebraic, residuals : sequence of int
         Unknowns and equations of the integrated system.
     assigned : sequence of (variable, equation)
-        What is substituted into them, in order of evaluation.
+        Pairs substituted into the integrated system, in order of evaluation.
 
     Returns
     -------
     algebraic, residuals : tuple of int
-        In the new order; residuals[k] holds algebraic[k].
+        Unknowns and equations in the new order; residuals[k] contains algebraic[k].
 
     """
     if len(algebraic) < 3:
@@ -44,7 +44,7 @@ def order_unknowns(
     row = np.repeat(np.arange(len(rows)), [len(r) for r in rows])
     column = np.concatenate([np.array(r, dtype=int) for r in rows])
     pattern = scipy.sparse.csc_matrix((np.ones(len(row)), (row, column)), shape=(len(rows), len(rows)))[equation_of]
-    # Only the pattern counts: a dominant diagonal makes the factorisation succeed.
+    # Only the pattern matters: a dominant diagonal keeps the factorisation regular.
     dominant = (pattern + pattern.T + 3.0 * len(rows) * scipy.sparse.identity(len(rows))).tocsc()
     factors = scipy.sparse.linalg.splu(
         dominant, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}

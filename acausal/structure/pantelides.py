@@ -1,4 +1,4 @@
-"""Index reduction: which equations must be differentiated."""
+"""Index reduction by the algorithm of Pantelides."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from acausal.structure.incidence import lowest
 from acausal.structure.singularity import StructuralSingularity, Subsystem
 from acausal.structure.system import System
 
-LIMIT = 10
+LIMIT = 10  # differentiations of one equation: mechanical models need two, more than ten never end
 
 
 def pantelides(system: System) -> Extension:
     """Differentiate until the highest derivatives can be matched (Pantelides 1988, all colourings of a round at once).
 
-    The equations that Pantelides colours from all unmatched ones are the over-determined part of the equations
-    with the highest derivatives, and each of them has to be differentiated; definitions of declared variables are
-    left alone, their derivatives being written in the system. Closures are differentiated beforehand.
+    The equations that Pantelides colours from the unmatched ones are the over-determined part of the equations in the
+    highest derivatives; each of them is differentiated, except definitions of variables with a declared derivative.
+    Closures are differentiated beforehand.
 
     Raises
     ------
     StructuralSingularity
-        If an equation would have to be differentiated more than `LIMIT` times, or only definitions remain.
+        If an equation were differentiated more than `LIMIT` times, or only definitions remain.
 
     """
     extension = Extension(system)

@@ -5,37 +5,37 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from acausal.structure.block import Block
-from acausal.structure.constraints import Constrained
+from acausal.structure.coordinate_projection import Constrained
 from acausal.structure.system import System
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How to solve a `System`.
+    """Solution plan of a `System`.
 
     Parameters
     ----------
     system : System
         The system, extended at the end by differentiated equations and created variables, then by projections.
     differentiated : tuple of int
-        Equation of which each added equation is the derivative (may itself be an added one).
+        Equation that each added equation differentiates, possibly an added one itself.
     created : tuple of int
-        Variable of which each added variable is the derivative.
+        Variable that each added variable differentiates.
     states : tuple of int
         The states, ascending.
     blocks : tuple of Block
         Block lower triangular form of all equations and all other variables, in order of solution.
     algebraic : tuple of int
-        Unknowns of the integrated system, in an order that keeps the factors of its Jacobian sparse.
+        Algebraic unknowns of the integrated system, in a fill-reducing order.
     residuals : tuple of int
-        Equations of the integrated system; `residuals[k]` holds `algebraic[k]`.
+        Equations of the integrated system; `residuals[k]` contains `algebraic[k]`.
     assigned : tuple of tuple of int
         (variable, equation) substituted into the integrated system, in order of evaluation.
     observed : tuple of tuple of int
         (variable, equation) that no state derivative needs, in order of evaluation.
     constrained : Constrained
-        Equations that hold at several levels, and the coordinates that are projected on them; each projection added two
-        equations, in this order, to the end of the system.
+        Constraints that hold at several levels, and the projected coordinates; each projection appends two equations,
+        in this order, to the system.
 
     """
 

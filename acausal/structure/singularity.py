@@ -1,4 +1,4 @@
-"""The failure of the structural analysis, in terms of equations and variables."""
+"""Structural singularity in terms of equations and variables."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Subsystem:
-    """Some equations and variables, both ascending."""
+    """A subset of the equations and variables, both ascending."""
 
     equations: tuple[int, ...]
     variables: tuple[int, ...]
 
     @classmethod
     def of(cls, equations: Iterable[int], variables: Iterable[int]) -> Subsystem:
-        """Sort both and drop repetitions."""
+        """Return the subsystem of some equations and variables, sorted and without repetitions."""
         return cls(tuple(sorted(set(equations))), tuple(sorted(set(variables))))
 
 
 class StructuralSingularity(Exception):
-    """No values of its coefficients make the system solvable; the smallest offending parts come first.
+    """Error for a system that is singular for all values of its coefficients; the smallest parts come first.
 
     Parameters
     ----------
     over : tuple of Subsystem
         Parts with more equations than variables.
     under : tuple of Subsystem
-        Parts with fewer equations than variables; a derivative stands as the variable it derives from.
+        Parts with fewer equations than variables; a derivative is represented by its lowest variable.
 
     """
 

@@ -1,4 +1,4 @@
-"""Choice of the states, and the equation that each other variable is matched with."""
+"""State selection and matching of the algebraic variables."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from acausal.structure.system import System
 
 @dataclass(frozen=True)
 class StateSelection:
-    """Equation of each algebraic variable, and the equations that are left over."""
+    """Equation of each algebraic variable, and the unmatched equations."""
 
     equation_of: list[int]
     left: list[int]
@@ -30,24 +30,24 @@ def select_states(
     constant: bool = True,
     integrated: Collection[int] = (),
 ) -> StateSelection:
-    """Match the equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
+    """Match the equations; the unmatched variables are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
-    The sets of variables that can be matched together are the independent sets of a matroid, hence a greedy choice
-    is a best one. A variable may be algebraic only if its derivative is.
+    The sets of variables that can be matched simultaneously are the independent sets of a matroid, so a greedy choice
+    is optimal. A variable may be algebraic only if its derivative is.
 
     Parameters
     ----------
     system : System
         The extended system.
     lower : collection of int
-        Equations of which the derivative is in the system too: they hold no highest derivatives and define nothing.
+        Equations whose derivative is in the system: they are not matched with highest derivatives.
     apart : collection of int
-        Equations that are left out.
+        Equations to exclude.
     constant : bool
-        True lets a variable be algebraic only through constant coefficients that are not small: any other choice of states
-        could become singular on the way, or amplify rounding.
+        True if a variable may be algebraic only through constant coefficients that are not small: other choices could
+        become singular during the run, or amplify round-off.
     integrated : collection of int
-        Variables that are states in any case.
+        Variables that must be states.
 
     """
     derivative = system.derivative
@@ -57,7 +57,7 @@ def select_states(
     unmatched = [e for e, v in enumerate(matching.variable_of) if v < 0 and e not in apart]
     ties = [sorted(x) for x in system.pivots] if constant else system.rows
     columns = transpose([() if e in apart else x for e, x in enumerate(ties)], system.n_variables)
-    # No free equation can be reached from what a failed search visited, now or later.
+    # Vertices visited by a failed search never lead to a free equation, now or later.
     exhausted: set[int] = set(apart)
     for variable in _candidates(system) if unmatched else ():
         if variable in integrated or matching.equation_of[derivative[variable]] < 0:
@@ -73,12 +73,12 @@ def select_states(
 
 
 def _candidates(system: System) -> list[int]:
-    """Variables with a derivative in the order in which they are tried as algebraic ones."""
+    """Return the variables with a derivative, in the order in which they are tried as algebraic variables."""
     keyed = []
     for chain in chains(system.derivative):
         preferences = [system.preference[v] for v in reversed(chain)]
         for level, variable in enumerate(reversed(chain)):
             if level:
-                # Equal preferences are decided by those of the variables that become candidates next.
+                # Equal preferences: compare those of the next candidates in the chain.
                 keyed.append((level, preferences[level:], -variable))
     return [-key[-1] for key in sorted(keyed)]

@@ -1,4 +1,4 @@
-"""What the structural analysis sees of a model: integers only."""
+"""Structure of a model in integers, the input of the structural analysis."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ class System:
     Parameters
     ----------
     rows : tuple of tuple of int
-        Variables (and derivatives) that occur in each equation.
+        Variables, derivatives included, in each equation.
     explicit : tuple of frozenset of int
-        Those that occur linearly with a coefficient made of numbers and parameters only.
+        Variables that occur linearly with a coefficient of numbers and parameters.
     derivative : tuple of int
-        Variable that is the time derivative of each variable, or -1; no two variables share one.
+        Time derivative of each variable, or -1; no two variables share one.
     declared : mapping of int to tuple of int
-        Variables of the declared expression of the derivative; such a variable has no `derivative`.
+        Variables in the declared derivative of a variable; such a variable has no `derivative`.
     defines : tuple of int
-        Declared variable that each equation defines, or -1.
+        Variable with a declared derivative that each equation defines, or -1.
     preference : tuple of int
         Preference of each variable to be a state: -2 never, -1 avoid, 0 default, 1 prefer, 2 always.
     monic : tuple of frozenset of int, optional
-        Those of `explicit` whose coefficient is 1 or -1, so that solving for them divides by nothing; default: all.
+        Subset of `explicit` with coefficient 1 or -1, whose solution needs no division; default: all.
     pivots : tuple of frozenset of int, optional
-        Those of `explicit` whose coefficient is not small beside the others of its equation, so that a state may follow from
-        others through it; default: all.
+        Subset of `explicit` whose coefficient is not small relative to the others of its equation, so that it can
+        determine a dependent state; default: all.
     closures : mapping of int to tuple of int, optional
-        Equations that may turn out to be redundant, and the variables of what then takes the place of each: they
-        close loops, are differentiated as often as it takes, and hold at every level.
+        Equations that close loops and may be redundant, with the variables of the substitute of each; they are
+        differentiated as often as necessary, and hold at every level.
 
     """
 

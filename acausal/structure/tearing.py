@@ -1,4 +1,4 @@
-"""Substitution of explicit equations into the others where it keeps the system sparse."""
+"""Tearing: substitution of explicit equations where it keeps the system sparse."""
 
 from __future__ import annotations
 
@@ -8,34 +8,33 @@ from heapq import heappop, heappush
 from acausal.structure.block import Block
 from acausal.structure.system import System
 
-LIMIT = 12
+LIMIT = 12  # entries of a row and users of a variable beyond which an elimination costs too much
 
 
 def worthwhile(fill: int, removed: int) -> bool:
-    """Whether an elimination that creates `fill` entries and removes `removed` ones pays.
+    """Return whether an elimination with `fill` new entries and `removed` removed ones pays.
 
-    Fill-in costs more than it seems, because the factors fill further: measured on chains of beams.
+    Fill-in counts twice, because the factors fill further (measured on chains of beams).
     """
     return 2 * fill <= removed
 
 
 def tear(system: System, blocks: Sequence[Block]) -> list[tuple[int, int]]:
-    """Choose the (variable, equation) to substitute, by Gaussian elimination on sets (Markowitz 1957), cheapest first.
+    """Choose the (variable, equation) to substitute, by symbolic Gaussian elimination (Markowitz 1957), cheapest first.
 
-    Whatever the order of elimination, the chosen pairs can be evaluated in an order that uses the equations as they
-    were written.
+    The chosen pairs can always be evaluated, in some order, from the original equations.
 
     Parameters
     ----------
     system : System
         The extended system.
     blocks : sequence of Block
-        The integrated system, in order of solution; the order breaks ties.
+        Blocks of the integrated system in order of solution, which breaks ties.
 
     Returns
     -------
     list of (int, int)
-        In order of elimination.
+        The pairs in order of elimination.
 
     """
     equations = [e for block in blocks for e in block.equations]
@@ -57,19 +56,19 @@ class _Elimination:
         self.queued: set[tuple[int, int, int, int]] = set()
 
     def bound(self, e: int, v: int) -> int:
-        """Greatest possible net fill-in."""
+        """Return the largest possible net fill-in."""
         others, users = len(self.rows[e]) - 1, len(self.users[v]) - 1
         return others * users - others - users
 
     def admissible(self, e: int, v: int) -> bool:
-        """Whether substituting v from equation e is possible at a cost that does not grow with the system."""
+        """Return whether v can be substituted from equation e at a cost that does not grow with the system."""
         if e not in self.rows or v not in self.explicit[e]:
             return False
         users = len(self.users[v]) - 1
         return not users or (users <= LIMIT and len(self.rows[e]) - 1 <= LIMIT)
 
     def offer(self, pairs: Iterable[tuple[int, int]]) -> None:
-        """Queue pairs at their present price."""
+        """Queue pairs at their current cost."""
         for e, v in pairs:
             if self.admissible(e, v):
                 entry = (self.bound(e, v), self.rank[e], v, e)
@@ -78,7 +77,7 @@ class _Elimination:
                     heappush(self.queue, entry)
 
     def run(self) -> list[tuple[int, int]]:
-        """Eliminate while it pays."""
+        """Eliminate as long as it pays; return the chosen pairs."""
         chosen = []
         while self.queue:
             entry = heappop(self.queue)
@@ -87,7 +86,7 @@ class _Elimination:
             if not self.admissible(e, v) or bound != self.bound(e, v):
                 continue
             row, users = self.rows[e], self.users[v]
-            # Row e itself lacks nothing of row e, and each other user has v already.
+            # Row e itself adds no fill, and every other user already contains v.
             fill = sum(len(row - self.rows[u]) for u in users)
             if worthwhile(fill, len(row) + len(users) - 1):
                 chosen.append((v, e))
@@ -95,7 +94,7 @@ class _Elimination:
         return chosen
 
     def eliminate(self, e: int, v: int) -> list[tuple[int, int]]:
-        """Substitute v and return the pairs that may have another price."""
+        """Substitute v and return the pairs whose cost may have changed."""
         row, users = self.rows.pop(e), self.users.pop(v)
         row.discard(v)
         users.discard(e)
@@ -107,7 +106,7 @@ class _Elimination:
             for c in row - target:
                 self.users[c].add(u)
             target |= row
-            # What also enters through v would make the evaluation of the written equations circular.
+            # Variables that also enter through v would make the evaluation order circular.
             self.explicit[u] -= row
             self.explicit[u].discard(v)
         near = users.union(*(self.users[c] for c in row if len(self.users[c]) <= LIMIT + 1))

@@ -1,4 +1,4 @@
-"""Who may import whom: data flows one way, the engine knows no mechanics."""
+"""Layers of imports: data flows one way, and the engine imports no mechanics."""
 
 from __future__ import annotations
 

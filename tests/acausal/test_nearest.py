@@ -1,8 +1,8 @@
-"""Names that are meant by others: slips of spelling, parts of a name, words in common."""
+"""Suggestions for unknown names: misspellings, parts of names, common words."""
 
 import pytest
 
-from acausal.nearest import likeliest, nearest
+from acausal.nearest import most_similar, nearest
 from components import Body, FlexibleBeam, Revolute, SubstructuredBeam
 
 
@@ -23,15 +23,15 @@ from components import Body, FlexibleBeam, Revolute, SubstructuredBeam
     ],
 )
 def test_a_field(cls, name, meant):
-    assert likeliest(name, cls.fields) == meant
+    assert most_similar(name, cls.fields) == meant
 
 
 def test_a_misspelt_name_comes_before_one_with_a_common_word():
-    assert likeliest("inner_diamter", ["outer_inner", "inner_diameter", "diamter_of_all"]) == "inner_diameter"
+    assert most_similar("inner_diamter", ["outer_inner", "inner_diameter", "diamter_of_all"]) == "inner_diameter"
 
 
 def test_what_has_nothing_in_common():
-    assert likeliest("voltage", ["phi", "w", "a", "tau"]) == ""
+    assert most_similar("voltage", ["phi", "w", "a", "tau"]) == ""
 
 
 def test_a_path_is_looked_for_in_its_part():

@@ -1,4 +1,4 @@
-"""A user's own folders and files that hide `components` or `models` are named, with the remedy."""
+"""Folders and files of the user that shadow `components` or `models` are named, with the remedy."""
 
 import os
 import subprocess

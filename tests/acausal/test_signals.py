@@ -1,4 +1,4 @@
-"""Interrupts are raised wherever they come, though CasADi passes over what a handler raises while it converts arguments."""
+"""Interrupts are raised everywhere, also where CasADi ignores them while it converts arguments."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 import acausal as ac
 from acausal.compiler.call import quiet
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.signals import Signals
 from models.simple_pendulum import SimplePendulum
 
@@ -69,7 +69,7 @@ def test_interrupts_in_the_interface_of_casadi(name):
 def test_a_lost_interrupt_is_raised_before_the_next_call_of_a_solver():
     went_on = []
 
-    @alone
+    @exclusive
     def swallow():
         with contextlib.suppress(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)

@@ -1,4 +1,4 @@
-"""What a command does not use is not imported."""
+"""Commands import only the modules that they need."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""An uncaught error in a script shows the user's lines, without those of libraries and chained errors."""
+"""Uncaught errors in scripts show the user's lines, without libraries and chained errors."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import acausal as ac
-from acausal.tracebacks import SETTING, written
+from acausal.tracebacks import SETTING, user_traceback
 
 ROOT = Path(__file__).parents[2]
 HEAD = """import acausal as ac
@@ -61,6 +61,6 @@ def test_a_notebook_shows_the_same():
     try:
         ac.simulate(3, stop_time=1)  # type: ignore[arg-type]
     except ac.AcausalError as error:
-        text = written(error, error.__traceback__)
+        text = user_traceback(error, error.__traceback__)
     assert text.count("  File ") == 1
     assert __file__ in text

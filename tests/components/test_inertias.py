@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import acausal as ac
 from acausal import DeclarationError, Model, chain, fixed
-from acausal.language.validity import Requirement
+from acausal.language.validity_statements import Requirement
 from components import Body, BodyRod, BodyShape, Revolute, World
 
 

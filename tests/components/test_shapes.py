@@ -12,7 +12,7 @@ import pytest
 
 import acausal as ac
 from acausal import Component, Model, as_expr, chain, connect, fixed, geometry, part, time
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
 from components import (
     Body,
     BodyBox,

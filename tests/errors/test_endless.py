@@ -174,7 +174,7 @@ class Itself(Model):
 def test_components_that_contain_themselves():
     with pytest.raises(DeclarationError, match=r"test_endless.py:\d+: parts are nested more than 100 deep \(Itself"):
         ac.compile(Itself())
-    with pytest.raises(DeclarationError, match=r"\((Inner in Outer|Outer in Inner), again and again.*`top.inner\[0\]"):
+    with pytest.raises(DeclarationError, match=r"\((Inner in Outer|Outer in Inner), repeatedly.*`top.inner\[0\]"):
         ac.compile(Mutual())
 
 
@@ -199,7 +199,7 @@ def test_recursion_that_ends_is_no_mistake():
 
 
 def _walk(component):
-    from acausal.flatten.tree import walk
+    from acausal.flatten.component_tree import walk
 
     return walk(component)
 

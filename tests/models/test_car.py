@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import acausal as ac
 from acausal import Model, chain, connect, exp, fixed, part
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
 from components import (
     Body,
     FixedTranslation,

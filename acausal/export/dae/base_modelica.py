@@ -12,8 +12,8 @@ from acausal.compiler import CompiledModel
 from acausal.errors import AcausalError
 from acausal.export.dae.modelica_text import Names, hashed, number, texts, written
 from acausal.export.dae.shown import unknown_names
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.discontinuities import Guard
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.condition import Condition, Joined
 from acausal.language.functions import initial, time

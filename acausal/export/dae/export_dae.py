@@ -18,12 +18,12 @@ from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.plain import encoded
 from acausal.export.dae.shown import shown
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import feedback, initial, time
-from acausal.language.validity import Expectation, Separation
-from acausal.locks import alone
+from acausal.language.validity_statements import Expectation, Separation
+from acausal.locks import exclusive
 from acausal.result import check_writable
 from acausal.simulation.settings import declared_settings
 
@@ -31,8 +31,8 @@ from acausal.simulation.settings import declared_settings
 SHARED = {"time": time, "initial": initial, "feedback": feedback}
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def export_dae(
     model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None
 ) -> None:

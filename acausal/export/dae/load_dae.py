@@ -14,15 +14,15 @@ from acausal.export.dae import archive, tree
 from acausal.export.dae.export_dae import SHARED
 from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
 from acausal.export.dae.plain import decoded
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.reduce import ReducedModel
 from acausal.result import document
 
 
-@fitting
-@alone
+@checked_arguments
+@exclusive
 def load_dae(path: str | Path) -> CompiledModel:
     """Read a model that `export_dae` wrote; its classes are not needed.
 
@@ -63,7 +63,7 @@ def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedMode
     def decode(said: Any) -> Any:
         return decoded(said, expressions, more)
 
-    more: dict[str, dict[str, Any]] = {"FlatEquations": {"givers": lambda row: (), "repeats": lambda: ()}}
+    more: dict[str, dict[str, Any]] = {"FlatEquations": {"eliminated_by": lambda row: (), "repeats": lambda: ()}}
     root = tree.read(inside["tree"], decode)
     if not isinstance(root, Component):
         raise ValueError("there is no model")

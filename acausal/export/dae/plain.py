@@ -26,17 +26,17 @@ from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.condition import Condition, Joined
 from acausal.language.expression import Expr
-from acausal.language.validity import Expectation, Requirement, Separation
+from acausal.language.validity_statements import Expectation, Requirement, Separation
 from acausal.reduce import ReducedModel
 from acausal.reduce.constrain import Projections
 from acausal.structure import Plan
 from acausal.structure.block import Block
-from acausal.structure.constraints import Constrained, Constraint, Projection
+from acausal.structure.coordinate_projection import Constrained, Constraint, Projection
 from acausal.structure.system import System
 from acausal.units import BASES, Dimension
 
-# What is left out has no meaning without the classes of a model: `givers` and `repeats`, which explain models that cannot be
-# compiled; `tree`, which is written by itself.
+# Fields left out have no meaning without the classes of a model (`eliminated_by` and `repeats`, for errors of compilation) or
+# are written separately (`tree`).
 FIELDS: dict[type, str] = {
     Origin: "path kind where text",
     Initial: "residual text origin",

@@ -12,7 +12,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.compiler.whole import origin_of
 from acausal.export.dae.plain import encoded, without_folder
-from acausal.flatten.tree import join, walk
+from acausal.flatten.component_tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr
 from acausal.language.functions import time

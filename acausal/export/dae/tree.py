@@ -15,12 +15,12 @@ import numpy as np
 from acausal.compiler.requirements import Stated
 from acausal.errors import DeclarationError, caution
 from acausal.export.dae.plain import encoded, without_folder
-from acausal.flatten.tree import join, walk
+from acausal.flatten.component_tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector, Model, Record
 from acausal.language.docstring import first_line
 from acausal.language.expression import Expr
-from acausal.language.validity import Requirement
+from acausal.language.validity_statements import Requirement
 from acausal.result.lookup import READABLE
 
 Add = Callable[[ca.SX | ca.DM], int]

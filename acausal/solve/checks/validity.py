@@ -13,9 +13,9 @@ from acausal.compiler.once import once
 from acausal.compiler.requirements import Stated, refuse, statements
 from acausal.compiler.rowwise import Rowwise
 from acausal.errors import InitializationError
-from acausal.flatten.foreign import refuse_undeclared
+from acausal.flatten.opaque_calls import refuse_undeclared
 from acausal.language.functions import initial, time
-from acausal.language.validity import Expectation, Separation
+from acausal.language.validity_statements import Expectation, Separation
 from acausal.policy import POLICY
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread

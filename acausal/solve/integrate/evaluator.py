@@ -7,7 +7,7 @@ import numpy as np
 
 from acausal.compiler.rowwise import Rowwise
 from acausal.errors import caution
-from acausal.flatten.foreign import refuse_undeclared
+from acausal.flatten.opaque_calls import refuse_undeclared
 from acausal.language.functions import time as time_symbol
 from acausal.solve.causes import without_value
 from acausal.solve.integrate.consistent import Consistent

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.flatten.tree import join, walk
+from acausal.flatten.component_tree import join, walk
 from acausal.language.fields import Structural
 
 DIGITS = 12  # of directions that count as equal

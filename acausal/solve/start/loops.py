@@ -9,7 +9,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
 from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.solve.parts import part_of

@@ -9,8 +9,8 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.whole import EVENT, Row, whole
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.origin import Origin, value_origin
-from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.policy import POLICY
 from acausal.solve.causes import operation, remedy

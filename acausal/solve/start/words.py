@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
 from acausal.language.component import Component, Connector
 from acausal.language.fields import InitialValue
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.compiler import compile, model_of, values_of
 from acausal.errors import DeclarationError, SimulationError
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.data import same
 from acausal.policy import POLICY
@@ -34,7 +34,7 @@ from acausal.study.measuring.session import Progress
 from acausal.study.measuring.shipping import pack
 
 
-@fitting
+@checked_arguments
 def effects(
     model: Component,
     *,

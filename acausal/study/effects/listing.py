@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from acausal.flatten.component_tree import join, members
 from acausal.flatten.instantiate import Instantiation
-from acausal.flatten.tree import join, members
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.data import same

@@ -9,7 +9,7 @@ from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.language.fields import Field
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.result.lookup import find, match
 from acausal.simulation.asked import check_intervals
 from acausal.simulation.stop_time import check_stop_time, own_stop_time

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError, ExportError
-from acausal.flatten.tree import join, walk
+from acausal.flatten.component_tree import join, walk
 from acausal.language.component import Component
 from acausal.language.data import plain
 from acausal.language.fields import Structural

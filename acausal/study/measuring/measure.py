@@ -13,7 +13,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import AcausalError, AcausalWarning
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation import forget, simulate
@@ -27,7 +27,7 @@ KEPT = 2
 _COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
 
 
-@alone
+@exclusive
 def measure(job: Job) -> Measurement:
     """Compile and run a case; whatever goes wrong with the model is stored in the measurement.
 

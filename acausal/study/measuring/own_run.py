@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import AcausalError, DeclarationError, SimulationError
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.result import Result
 from acausal.study.measuring.case import Job
 from acausal.study.measuring.limit import TooLong

@@ -14,7 +14,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language.data import plain
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.study.measuring.shipping import pack
 
 

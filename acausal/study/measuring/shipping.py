@@ -16,14 +16,14 @@ import cloudpickle
 
 from acausal.errors import DeclarationError
 from acausal.language.fields import MISSING, Template
-from acausal.language.shipped import symbols, text
-from acausal.locks import alone
+from acausal.language.pickling import deserialize, serialize
+from acausal.locks import exclusive
 from acausal.study.measuring.unsendable import unsendable
 
 UNSENDABLE = (TypeError, AttributeError, ValueError, RecursionError, pickle.PicklingError)
 
 
-@alone
+@exclusive
 def pack(model: Any, home: str = "") -> bytes:
     """Turn a model that is not built, or values that are given to one, into bytes.
 
@@ -83,7 +83,7 @@ class _Pickler(cloudpickle.Pickler):
 
     def reducer_override(self, obj: Any) -> Any:
         if isinstance(obj, ca.SX):
-            return symbols, (text(obj),)
+            return deserialize, (serialize(obj),)
         if obj is MISSING:
             return "MISSING"
         return super().reducer_override(obj)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from acausal.language.fields import Template
-from acausal.language.values import shown_or_kind
+from acausal.language.value_checks import shown_or_kind
 
 DEEP = 6  # values inside values that are gone through
 

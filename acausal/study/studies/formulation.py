@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
+from acausal.flatten.component_tree import join, members, walk
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.structural import largest
-from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import declaration_error
 from acausal.language.component import Component
 from acausal.language.data import same
 from acausal.result import Result
@@ -115,7 +115,7 @@ def with_and_without(*formulations: Formulation, **switches: str) -> tuple[Formu
         if not isinstance(form, Formulation):
             given = "none is given" if form is None else f"{form!r} is none"
             example = 'Formulation("fine", {"beam.elements": 8})'
-            raise refused(f"with_and_without() takes formulations, such as {example}; {given}.")
+            raise declaration_error(f"with_and_without() takes formulations, such as {example}; {given}.")
     found = formulations
     for word, path in switches.items():
         pairs = [(form, on) for form in found for on in (False, True)]

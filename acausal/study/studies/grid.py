@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.simulation.asked import CHOICES, CONSTRAINTS
 from acausal.study.measuring.arguments import items
 from acausal.study.measuring.case import Case

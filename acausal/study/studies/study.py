@@ -13,7 +13,7 @@ import numpy as np
 from acausal.compiler import CompiledModel, compile, model_of, values_of
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.result import check_writable
@@ -151,7 +151,7 @@ class Study:
         return figure
 
 
-@fitting
+@checked_arguments
 def study(
     model: Component,
     *,

@@ -190,6 +190,6 @@ def test_default_experiment_and_start_may_be_given(tmp_path):
     with pytest.raises(ac.DeclarationError, match=r"initial is 'still'; it must be one of fixed, guesses, steady"):
         ac.export_fmu(Settling(), path, initial="still")
     with pytest.raises(
-        ac.DeclarationError, match=r"has no argument `method`; the model may declare it, method = 'idas'"
+        ac.DeclarationError, match=r"has no argument `method`; declare it in the class of the model, method = 'idas'"
     ):
         ac.export_fmu(Settling(), path, method="idas")  # pyright: ignore[reportCallIssue]

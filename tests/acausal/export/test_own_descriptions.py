@@ -67,7 +67,7 @@ def test_descriptions_are_those_of_the_declaration(tmp_path, version):
     assert found["hand.body.m"] == "mass"
 
 
-LAW = r"A law is given where Plant is a part: `class Whole\(Model\): part = Plant\(u=\.\.\.\)`"
+LAW = r"Give a function of time where Plant is a part: `class Whole\(Model\): part = Plant\(u=\.\.\.\)`"
 
 
 @pytest.mark.parametrize("compiled", [False, True])

@@ -1,4 +1,4 @@
-"""Derivatives that equations request: of expressions, of other derivatives, and of declared ones."""
+"""Derivatives of expressions, of other derivatives, and of variables with declared derivatives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Flows of unconnected ports that equations of what contains them state."""
+"""Flows of unconnected ports that are stated by a containing component."""
 
 from __future__ import annotations
 

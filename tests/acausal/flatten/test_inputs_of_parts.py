@@ -1,4 +1,4 @@
-"""Models with an input of their own as parts of larger ones."""
+"""Models with inputs as parts of larger models."""
 # ruff: noqa: RUF012  (lists of parts in a class body)
 
 from __future__ import annotations
@@ -123,7 +123,7 @@ def test_an_input_with_a_law_has_derivatives() -> None:
 
 
 def test_an_input_of_the_model_that_is_passed_on_has_none() -> None:
-    with pytest.raises(ac.DeclarationError, match="prescribes a motion through the input `a`"):
+    with pytest.raises(ac.DeclarationError, match="prescribes a motion by the input `a`"):
         ac.compile(PrescribedFromOutside())
 
 

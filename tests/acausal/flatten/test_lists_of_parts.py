@@ -1,4 +1,4 @@
-"""Plain lists of parts, and what does not belong to the model that connects it."""
+"""Lists of parts, and connections of components outside the model."""
 # ruff: noqa: RUF012  (a list in a class body is what is tested)
 
 from __future__ import annotations

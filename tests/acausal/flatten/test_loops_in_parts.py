@@ -1,4 +1,4 @@
-"""Closed loops inside sub-assemblies: they are cut there, and the machine moves as the same one written flat."""
+"""Closed loops inside sub-assemblies are cut there; the motion equals that of the flat machine."""
 # ruff: noqa: RUF012  (lists of parts in a class body)
 
 from __future__ import annotations

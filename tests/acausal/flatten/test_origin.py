@@ -1,4 +1,4 @@
-"""Where an error comes from: files of the package are passed over, files beside it are the user's."""
+"""Origin of errors: files of the package are skipped, files beside it are the user's."""
 
 from __future__ import annotations
 

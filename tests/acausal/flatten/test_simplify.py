@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import casadi as ca
 
+from acausal.flatten.linear_values import LinearValues
 from acausal.flatten.simplify import Simplification, Simplifier
-from acausal.flatten.tape import Tape
 from acausal.units import parse
 
 x = ca.SX.sym("x", 6)
@@ -13,8 +13,8 @@ p = ca.SX.sym("p")
 
 
 def simplify(residuals: list[ca.SX], derivative: list[int] | None = None) -> Simplification:
-    tape = Tape(x, p, ca.vertcat(*residuals))
-    return Simplifier(tape, derivative or [-1] * 6, [0] * 6).run()
+    linear = LinearValues(x, p, ca.vertcat(*residuals))
+    return Simplifier(linear, derivative or [-1] * 6, [0] * 6).run()
 
 
 def test_constants_kill_products_and_go_on() -> None:
@@ -28,17 +28,17 @@ def test_alias_with_factor_and_offset() -> None:
 
 
 def test_what_has_to_stay_is_neither_removed_nor_chained() -> None:
-    tape = Tape(x, p, ca.vertcat(x[0] - x[1], x[2] - x[0], x[0] - 3))
-    done = Simplifier(tape, [-1, 3, -1, -1, -1, -1], [0] * 6, stay={0}).run()
+    linear = LinearValues(x, p, ca.vertcat(x[0] - x[1], x[2] - x[0], x[0] - 3))
+    done = Simplifier(linear, [-1, 3, -1, -1, -1, -1], [0] * 6, stay={0}).run()
     assert done.solved == {2: (0.0, ((0, 1.0),))}, "the chained x[1] is no alias"
     assert set(done.kept) == {2}
 
 
 def test_constant_reaches_what_became_an_alias_before() -> None:
-    tape = Tape(x, p, ca.vertcat(x[0] - x[1], x[0] * p + x[2], x[1] - x[3], x[3]))
-    done = Simplifier(tape, [-1] * 6, [0] * 6).run()
+    linear = LinearValues(x, p, ca.vertcat(x[0] - x[1], x[0] * p + x[2], x[1] - x[3], x[3]))
+    done = Simplifier(linear, [-1] * 6, [0] * 6).run()
     assert set(done.solved) == {0, 1, 2, 3}
-    assert all(tape.resolve((0.0, ((k, 1.0),))) == (0.0, ()) for k in range(4))
+    assert all(linear.resolve((0.0, ((k, 1.0),))) == (0.0, ()) for k in range(4))
 
 
 def test_parameters_are_no_constants() -> None:
@@ -84,6 +84,6 @@ def test_small_coefficients_are_not_divided_by() -> None:
 
 def test_coefficients_of_other_units_are_not_compared() -> None:
     # A spring: force = 1e6 s, with s = x0, der(s) = x2.
-    tape = Tape(x, p, ca.vertcat(x[1] - 1e6 * x[0]))
+    linear = LinearValues(x, p, ca.vertcat(x[1] - 1e6 * x[0]))
     units = [parse(unit) for unit in ("m", "N", "m/s", "1", "1", "1")]
-    assert Simplifier(tape, [2, -1, -1, -1, -1, -1], [0] * 6, units=units).run().solved == {1: (0.0, ((0, 1e6),))}
+    assert Simplifier(linear, [2, -1, -1, -1, -1, -1], [0] * 6, units=units).run().solved == {1: (0.0, ((0, 1e6),))}

@@ -1,4 +1,4 @@
-"""Structural values that are data: objects of a class, checked, compared, shown, read from files and sent."""
+"""Structural values that are objects: checked, compared, shown, read from files and sent."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 import acausal as ac
 from acausal import Component, DeclarationError, Model, Scalar, der, output, quantity, structural, variable
-from acausal.flatten import alike
+from acausal.flatten import template_reuse
 from acausal.flatten.instantiate import Instantiation
 from acausal.language import data
 from acausal.study.measuring.case import Case
@@ -98,12 +98,12 @@ class Decays(Model):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"body.rates": 3}, r"is 3; it must be a Rates, or the name of a file of one\."),
+        ({"body.rates": 3}, r"is 3; it must be a Rates, or the name of its file\."),
         ({"body.rates": Rates}, "is the class Rates; it must be a Rates"),
         ({"body.rates": None}, "is None; it must be a Rates"),
         ({"body.rates": np.ones(3)}, "it must be a Rates"),
         ({"body.rates": np.ones(300)}, r"is an array of shape \(300,\); it must be a Rates"),
-        ({"body.rates": "none.txt"}, "'none.txt' holds no Rates: .*none.txt not found"),
+        ({"body.rates": "none.txt"}, "'none.txt' contains no Rates: .*none.txt not found"),
         ({"body.modes": 2.5}, r"is 2\.5; it must be a whole number, or None\."),
         ({"body.modes": True}, r"is True; it must be a whole number, or None\."),
         ({"body.modes": "2"}, r"is '2'; it must be a whole number, or None\."),
@@ -141,7 +141,7 @@ def test_a_file_name_stands_for_what_the_class_loads(tmp_path):
     with pytest.raises(DeclarationError, match=r"`rates` of body \(.*\): rates.txt has rates that are not positive\."):
         ac.compile(Decays(), {"body.rates": path})
     path.write_text("one\n")
-    with pytest.raises(DeclarationError, match=r"rates.txt' holds no Rates: could not convert string 'one'"):
+    with pytest.raises(DeclarationError, match=r"rates.txt' contains no Rates: could not convert string 'one'"):
         ac.compile(Decays(), {"body.rates": path})
 
 
@@ -150,9 +150,9 @@ def test_a_file_name_stands_for_what_the_class_loads(tmp_path):
     [
         (lambda: structural("n", cls="int"), r"cls='int' must be a class, such as cls=int"),
         (lambda: structural("n", cls=int, default=2.5), r"default=2\.5 must be a whole number"),
-        (lambda: structural("n", cls=Rates, default=3), r"default=3 must be a Rates, or the name of a file of one"),
+        (lambda: structural("n", cls=Rates, default=3), r"default=3 must be a Rates, or the name of its file"),
         (lambda: structural("n", maximum="3"), r"maximum='3' must be a number, or a function of the component"),
-        (lambda: structural("n", maximum=lambda: 3), r"a maximum that is computed is a function of the component"),
+        (lambda: structural("n", maximum=lambda: 3), r"a computed maximum is a function of the component"),
     ],
 )
 def test_declarations(declared, message):
@@ -241,8 +241,8 @@ def test_components_with_equal_data_are_alike():
             return [Modes(rates=Rates(np.array([1.0, 2.0])), table=Careless(np.ones(2))) for _ in range(6)]
 
     tree = Instantiation(Many()).root
-    assert alike._datum(tree.bodies[0].rates) == alike._datum(tree.bodies[1].rates)
-    assert alike._datum(tree.bodies[0].table) != alike._datum(tree.bodies[1].table)
+    assert template_reuse._structural_key(tree.bodies[0].rates) == template_reuse._structural_key(tree.bodies[1].rates)
+    assert template_reuse._structural_key(tree.bodies[0].table) != template_reuse._structural_key(tree.bodies[1].table)
     result = ac.simulate(Many(), stop_time=1, tolerance=1e-8)
     np.testing.assert_allclose(result["bodies[5].q"][-1], np.exp([-1, -2]), rtol=1e-6)
 
@@ -290,8 +290,8 @@ def test_a_file_name_on_the_command_line(tmp_path):
     assert done.returncode == 0, done.stderr
     assert float(table.read_text().split(",")[-1]) == pytest.approx(np.exp(-1) + np.exp(-5), rel=1e-4)
     for wrong, message in (
-        ("nothing.txt", "holds no Rates: "),
-        ("3", "is 3; it must be a Rates, or the name of a file"),
+        ("nothing.txt", "contains no Rates: "),
+        ("3", "is 3; it must be a Rates, or the name of its file"),
     ):
         done = run(wrong)
         assert done.returncode == 2

@@ -1,4 +1,4 @@
-"""Docstring and signature of a component tell its fields."""
+"""Docstring and signature of a component list its fields."""
 
 import inspect
 

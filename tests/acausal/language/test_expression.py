@@ -1,4 +1,4 @@
-"""Arithmetic of expressions is that of numpy, for scalars, vectors and matrices."""
+"""Arithmetic of expressions agrees with numpy for scalars, vectors and matrices."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hints at the parameter or the argument that is meant."""
+"""Suggestions for misspelt parameters and arguments."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_parameters_that_are_0_for_other_reasons_are_not():
 @pytest.mark.parametrize(
     ("statement", "text"),
     [
-        (lambda s: chain(s.hinge.support, s.damper), "argument 1 is None. A port that an option adds"),
+        (lambda s: chain(s.hinge.support, s.damper), "argument 1 is None. An optional port is None"),
         (lambda s: chain(s.damper, s.hinge.axis), "argument 2 is None"),
         (lambda s: chain(s.damper, s.left_out, s.damper), "argument 2 is None.*if self.part is not None"),
         (lambda s: chain(s.damper, 3), "argument 2, 3, is neither"),

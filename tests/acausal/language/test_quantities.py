@@ -1,4 +1,4 @@
-"""Quantities of other packages are converted to the unit of their field, or refused; masked arrays are refused."""
+"""Quantities of other packages are converted to the unit of their field; masked arrays are errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""set_valued(): what it takes, and where it is yielded."""
+"""Arguments of set_valued(), and the method that yields it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_discrete_variables_are_needed():
             yield self.law(mode=0)
 
     with pytest.raises(
-        DeclarationError, match=r"set_valued needs discrete variables, and `v` is none(.|\n)*discrete\("
+        DeclarationError, match=r"set_valued needs discrete variables, but `v` is not discrete(.|\n)*discrete\("
     ):
         ac.compile(State())
     with pytest.raises(

@@ -1,4 +1,4 @@
-"""Nothing that is set is ignored: in a class body it works, elsewhere it works or is refused with the way that works."""
+"""Settings in a class body take effect; elsewhere they take effect or raise an error with the remedy."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def test_a_structural_value_and_a_choice():
         ("omega", None, "must be a number"),
         ("omega", fixed(3), "is not a variable"),
         ("angle", 3, "write angle=fixed"),
-        ("world", 5, "is a part; put a component in its place"),
+        ("world", 5, "is a part; replace it by a component"),
     ],
 )
 def test_a_wrong_value_is_refused(name, wrong, text):
@@ -218,7 +218,7 @@ class Own(Rate):
 
 
 def test_a_circle_of_defaults_is_named():
-    with pytest.raises(DeclarationError, match="Circle depend on each other in a circle: a -> b -> c -> a"):
+    with pytest.raises(DeclarationError, match="Circle depend on each other in a cycle: a -> b -> c -> a"):
         ac.compile(Circle())
     with pytest.raises(DeclarationError, match="n -> n"):
         ac.compile(Own())

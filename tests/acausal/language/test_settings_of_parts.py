@@ -1,4 +1,4 @@
-"""Parts set in a class body: left out, replaced, added."""
+"""Parts in a class body: removed, replaced, added."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ class Several(Model):
 
 
 def test_parts_must_be_parts():
-    with pytest.raises(DeclarationError, match="bodies: @parts marks a method that returns a list of parts, not None"):
+    with pytest.raises(DeclarationError, match="@parts decorates a method that returns a list of parts, not None"):
         ac.compile(Several())
     with pytest.raises(DeclarationError, match="`one` must be a part"):
         ac.compile(Several(bodies=[]))

@@ -1,4 +1,4 @@
-"""Arrays keep the shape that they are declared with, one entry among them: they are numpy's, operation by operation."""
+"""Arrays keep their declared shape, also with one entry, in all operations of numpy."""
 
 from __future__ import annotations
 
@@ -252,7 +252,7 @@ def test_units_of_one_row():
         ac.compile(Mixed())
 
 
-def test_alike_components_with_arrays_of_one_entry():
+def test_equal_components_with_arrays_of_one_entry():
     class Several(Model):
         @ac.parts
         def bodies(self):

@@ -1,4 +1,4 @@
-"""Signals of time against their definition, with exact instants, and driven through derivatives."""
+"""Signals of time agree with their definition, with exact events, and can be differentiated."""
 
 from __future__ import annotations
 

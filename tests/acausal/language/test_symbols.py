@@ -1,4 +1,4 @@
-"""Symbols with Python's operators, indices and the functions of numpy: right, or refused in the user's words."""
+"""Symbols in Python operators, indices and numpy functions give correct results or clear errors."""
 
 from __future__ import annotations
 

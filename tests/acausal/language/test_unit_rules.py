@@ -1,4 +1,4 @@
-"""Units of sums, products and arrays: what certainly contradicts is reported, and nothing else; literals fit any unit."""
+"""Units of sums, products and arrays: only certain contradictions are errors; literals fit any unit."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The equations of the projection, for a point on a circle: no model, a hand-made plan."""
+"""Equations of the projection for a point on a circle, with a plan written by hand."""
 
 from __future__ import annotations
 

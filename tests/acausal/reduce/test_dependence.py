@@ -1,4 +1,4 @@
-"""Which unknowns a value needs, on a chain of three blocks."""
+"""Dependence on algebraic unknowns in a chain of three blocks."""
 
 from __future__ import annotations
 

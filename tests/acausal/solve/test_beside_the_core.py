@@ -12,7 +12,7 @@ import acausal as ac
 from acausal import fixed
 from acausal.core import library
 from acausal.core.rodas import Rodas
-from acausal.locks import LOCK, alone, apart
+from acausal.locks import LOCK, exclusive, unlocked
 from models import CarAxis, NFourBar
 from tests.acausal.solve.test_threads import TASKS, Pendulum, assert_same, read
 
@@ -79,7 +79,7 @@ def test_others_may_enter_while_the_core_integrates(monkeypatch):
     ac.simulate(**run)
     assert seen == [True]
     # A caller may be amid an evaluation.
-    alone(ac.simulate)(**run)
+    exclusive(ac.simulate)(**run)
     assert seen == [True, False]
     assert others_may_enter()
 
@@ -97,10 +97,10 @@ def fail():
 def test_the_lock_is_held_again_whatever_happens_meanwhile(monkeypatch, look, error):
     compiled, inside = ac.compile(Pendulum(x=fixed(1.0), v=fixed(0.0))), []
 
-    @alone
+    @exclusive
     def run():
         try:
-            apart(look)
+            unlocked(look)
         finally:
             inside.append(others_may_enter())
 
@@ -116,9 +116,9 @@ def test_the_lock_is_held_again_whatever_happens_meanwhile(monkeypatch, look, er
 
 
 def test_without_the_lock_there_is_none_to_lay_down():
-    assert apart(others_may_enter)
+    assert unlocked(others_may_enter)
     with pytest.raises(MemoryError):
-        apart(fail)
+        unlocked(fail)
     assert others_may_enter()
 
 
@@ -136,4 +136,4 @@ def test_a_thread_that_forks_meanwhile_takes_no_interrupts_along():
             os._exit(2)
 
     with ThreadPoolExecutor(1) as pool:
-        assert alone(lambda: apart(lambda: pool.submit(child).result(20)))() == 3
+        assert exclusive(lambda: unlocked(lambda: pool.submit(child).result(20)))() == 3

@@ -14,7 +14,7 @@ import pytest
 
 import acausal as ac
 from acausal import asin, exp, piecewise, sin, sine, time
-from acausal.flatten import attributes, given, variables
+from acausal.flatten import attributes, field_values, variables
 from acausal.language import fields as f
 from acausal.language.expression import Expr
 from acausal.units import parse
@@ -64,8 +64,8 @@ def body_in(body: ReducedBody, units: tuple[float, ...]) -> ReducedBody:
 def measured_in(units: tuple[float, ...]) -> Iterator[None]:
     """Take all numbers that models, components and their defaults state in SI in other units."""
     given_value, fill, start, derivative = (
-        given.Given._given,
-        given.Given.fill,
+        field_values.FieldValues._specified,
+        field_values.FieldValues.fill,
         variables._fill,
         attributes.Attributes.derivative,
     )
@@ -77,13 +77,13 @@ def measured_in(units: tuple[float, ...]) -> Iterator[None]:
         default = bound._class_values.get(name, declared.default)
         if bound._values.get(name, f.MISSING) is f.MISSING and (callable(default) or isinstance(default, f.Deferrable)):
             return value  # of others, which are scaled
-        return scaled(value, scale(given.unit_of(declared, bound), units))
+        return scaled(value, scale(field_values.unit_of(declared, bound), units))
 
     def variables_of(self: Any, bound: Any, owner: Any) -> None:
         fill(self, bound, owner)
         own = {n: v for n, v in bound._values.items() if isinstance(bound.fields.get(n), f.Variable)}
         own = {n: v for n, v in own.items() if not isinstance(v, f.InitialValue)}
-        factors = {n: scale(given.unit_of(bound.fields[n], bound), units) for n in own}
+        factors = {n: scale(field_values.unit_of(bound.fields[n], bound), units) for n in own}
         vars(bound)["_values"] = {**bound._values, **{n: scaled(v, factors[n]) for n, v in own.items()}}
 
     def attribute(value: Any, shape: Any, variable: Expr, what: str) -> Expr:
@@ -100,8 +100,8 @@ def measured_in(units: tuple[float, ...]) -> Iterator[None]:
         return found
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(given.Given, "_given", parameter)
-        patch.setattr(given.Given, "fill", variables_of)
+        patch.setattr(field_values.FieldValues, "_specified", parameter)
+        patch.setattr(field_values.FieldValues, "fill", variables_of)
         patch.setattr(variables, "_fill", attribute)
         patch.setattr(attributes.Attributes, "derivative", of_derivative)
         yield

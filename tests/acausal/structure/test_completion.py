@@ -1,4 +1,4 @@
-"""Choice of conditions at the start, and the order of the integrated unknowns."""
+"""Selection of initial conditions, and order of the integrated unknowns."""
 
 from __future__ import annotations
 
