@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler.asked import model_of, values_of
+from acausal.compiler.argument_checks import model_of, values_of
 from acausal.compiler.clock import split_clock
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.parameters import Settable
