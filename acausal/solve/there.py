@@ -10,7 +10,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.whole import Row, Whole, whole
+from acausal.compiler.full_residuals import Row, Whole, whole
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from acausal.compiler.whole import EVENT, whole
+from acausal.compiler.full_residuals import EVENT, whole
 from acausal.solve.causes import without_value
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem

@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
-from acausal.compiler.whole import origin_of
+from acausal.compiler.full_residuals import origin_of
 from acausal.export.dae.plain import encoded, without_folder
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f

@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.whole import EVENT, Row, whole
+from acausal.compiler.full_residuals import EVENT, Row, whole
 from acausal.flatten.origin import Origin, value_origin
 from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable

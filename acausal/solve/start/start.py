@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.full_residuals import EQUATION, START
 from acausal.compiler.set_valued import MODE, SHARED
-from acausal.compiler.whole import EQUATION, START
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, without_value
