@@ -17,7 +17,7 @@ from acausal.compiler.constraints import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
 from acausal.compiler.local import Local
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.compiler.parameters import Settable
 from acausal.compiler.passes import Pass, make_passes
 from acausal.compiler.report import AtStart, report, summary

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler.call import Call
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.flatten.origin import Origin
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel

@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.errors import caution
 from acausal.flatten.tree import walk
 from acausal.language.functions import time

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import latest, making
+from acausal.compiler.memo import latest, making
 from acausal.solve.checks.validity import check_start
 from acausal.solve.integrate.order import Spectrum
 from acausal.solve.opening import Opening

@@ -7,7 +7,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.compiler.constraints import Constraints
-from acausal.compiler.once import latest, once
+from acausal.compiler.memo import latest, once
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, parts
 from acausal.units import BASES, Dimension, parse

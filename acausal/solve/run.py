@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import making
+from acausal.compiler.memo import making
 from acausal.compiler.report import loops_at, parts_at
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY

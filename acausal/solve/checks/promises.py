@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.flatten.discontinuities import Promise
 from acausal.policy import POLICY
 from acausal.solve.checks.validity import Watch, watch

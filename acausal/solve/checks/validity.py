@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.compiler.requirements import Stated, refuse, statements
 from acausal.compiler.rowwise import Rowwise
 from acausal.errors import InitializationError

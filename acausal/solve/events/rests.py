@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import laws_of_time
-from acausal.compiler.once import latest
+from acausal.compiler.memo import latest
 from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator

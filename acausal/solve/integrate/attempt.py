@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.compiler.once import making
+from acausal.compiler.memo import making
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent

@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.compiler.passes import Pass
 from acausal.core import Settler, Square, library
 from acausal.errors import InitializationError

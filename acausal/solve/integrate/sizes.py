@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.policy import POLICY
 from acausal.solve.problem import Problem, rates_of
 

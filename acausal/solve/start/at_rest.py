@@ -10,7 +10,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
-from acausal.compiler.once import latest, once
+from acausal.compiler.memo import latest, once
 from acausal.compiler.rounding import terms
 from acausal.policy import POLICY
 from acausal.solve.points import Point

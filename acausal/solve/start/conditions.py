@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.language.functions import initial as initial_flag
 from acausal.symbols import scalars
 

@@ -14,7 +14,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.policy import POLICY
 from acausal.solve.dependent import said_twice
 from acausal.solve.parts import Part, part_of

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.local import Local
-from acausal.compiler.once import latest
+from acausal.compiler.memo import latest
 from acausal.compiler.report import AtStart
 from acausal.errors import InitializationError
 from acausal.policy import POLICY

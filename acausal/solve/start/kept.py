@@ -14,7 +14,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.policy import POLICY
 from acausal.solve.parts import Part
 from acausal.solve.points import Point

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.errors import InitializationError
 from acausal.flatten.tree import walk
 from acausal.language.component import Component

@@ -11,7 +11,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.local import Local
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, part_of

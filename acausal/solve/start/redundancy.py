@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, part_of, parts, parts_of
 from acausal.solve.points import Point

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point

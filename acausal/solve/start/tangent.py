@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import once
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, Places, part_of
 from acausal.solve.points import Point

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from acausal.compiler.call import Call
-from acausal.compiler.once import latest, once
+from acausal.compiler.memo import latest, once
 from acausal.compiler.rowwise import AT_ONCE, PAYS, Rowwise
 from acausal.core import library
 

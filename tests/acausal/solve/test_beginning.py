@@ -10,7 +10,7 @@ import pytest
 
 import acausal as ac
 from acausal import AcausalWarning, Model, Scalar, chain, der, fixed, guess, parameter, sin, variable
-from acausal.compiler.once import making
+from acausal.compiler.memo import making
 from acausal.solve import beginning
 from components import Body, FixedTranslation, Revolute, World
 from models import FourBar
