@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler.call import Call
-from acausal.compiler.local import with_entries
+from acausal.compiler.linearization import with_entries
 from acausal.compiler.rounding import terms
 from acausal.compiler.rowwise import often
 from acausal.language.functions import time

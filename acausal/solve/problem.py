@@ -11,7 +11,7 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_motion, core_square
 from acausal.compiler.full_residuals import whole
-from acausal.compiler.local import Local, with_entries
+from acausal.compiler.linearization import Local, with_entries
 from acausal.compiler.memo import once
 from acausal.compiler.rowwise import Rowwise
 from acausal.core import Settler, library

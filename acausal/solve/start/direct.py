@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.local import Local
+from acausal.compiler.linearization import Local
 from acausal.compiler.memo import once
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem

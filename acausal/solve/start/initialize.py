@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.local import Local
+from acausal.compiler.linearization import Local
 from acausal.compiler.memo import latest
 from acausal.compiler.report import AtStart
 from acausal.errors import InitializationError

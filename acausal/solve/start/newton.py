@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.local import Local
+from acausal.compiler.linearization import Local
 from acausal.compiler.memo import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import scipy
 
-from acausal.compiler.local import Local
+from acausal.compiler.linearization import Local
 from acausal.solve.points import Point
 
 Function = Callable[[np.ndarray], np.ndarray]
