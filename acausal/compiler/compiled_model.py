@@ -11,6 +11,7 @@ import casadi as ca
 import numpy as np
 import scipy
 
+from acausal.compiler.algebraic_newton import Pass, make_passes
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
 from acausal.compiler.constraints import Constraints
@@ -19,7 +20,6 @@ from acausal.compiler.guards import Guards
 from acausal.compiler.linearization import Local
 from acausal.compiler.memo import once
 from acausal.compiler.parameters import Settable
-from acausal.compiler.passes import Pass, make_passes
 from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
 from acausal.compiler.rowwise import Rowwise

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.algebraic_newton import Pass
 from acausal.compiler.core_equations import core_square
 from acausal.compiler.memo import once
-from acausal.compiler.passes import Pass
 from acausal.core import Settler, Square, library
 from acausal.errors import InitializationError
 from acausal.policy import POLICY

@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.passes import make_passes
+from acausal.compiler.algebraic_newton import make_passes
 from acausal.reduce.dependence import Dependence
 
 x, z, p = ca.SX.sym("x"), ca.SX.sym("z", 5), ca.SX.sym("p")
