@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.vectorized import Rowwise
 from acausal.reduce import Level, solution_levels
 
 

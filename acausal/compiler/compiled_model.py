@@ -22,8 +22,8 @@ from acausal.compiler.memo import once
 from acausal.compiler.parameters import Settable
 from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
-from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.source import Source, pickled
+from acausal.compiler.vectorized import Rowwise
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.locks import alone

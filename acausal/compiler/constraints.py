@@ -12,7 +12,7 @@ import scipy
 from acausal.compiler.call import Call
 from acausal.compiler.linearization import with_entries
 from acausal.compiler.rounding import terms
-from acausal.compiler.rowwise import often
+from acausal.compiler.vectorized import often
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars, stacked

@@ -13,7 +13,7 @@ from acausal.compiler.core_equations import core_motion, core_square
 from acausal.compiler.full_residuals import whole
 from acausal.compiler.linearization import Local, with_entries
 from acausal.compiler.memo import once
-from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.vectorized import Rowwise
 from acausal.core import Settler, library
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows

@@ -11,7 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.memo import once
 from acausal.compiler.requirements import Stated, refuse, statements
-from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.vectorized import Rowwise
 from acausal.errors import InitializationError
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time

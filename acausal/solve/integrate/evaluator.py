@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.vectorized import Rowwise
 from acausal.errors import caution
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol

@@ -10,7 +10,7 @@ import pytest
 
 from acausal.compiler.call import Call
 from acausal.compiler.memo import latest, once
-from acausal.compiler.rowwise import AT_ONCE, PAYS, Rowwise
+from acausal.compiler.vectorized import AT_ONCE, PAYS, Rowwise
 from acausal.core import library
 
 X = ca.SX.sym("x", 2)
