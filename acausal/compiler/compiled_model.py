@@ -16,7 +16,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
 from acausal.compiler.constraints import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
-from acausal.compiler.guards import Guards
+from acausal.compiler.event_conditions import Guards
 from acausal.compiler.linearization import Local
 from acausal.compiler.memo import once
 from acausal.compiler.parameters import Settable

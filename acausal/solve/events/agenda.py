@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.compiler.guards import Guards
+from acausal.compiler.event_conditions import Guards
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.points import Point
