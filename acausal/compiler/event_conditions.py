@@ -10,9 +10,9 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.compiler.clock import by_clock, functions, planned_times, truth
 from acausal.compiler.rounding import terms
 from acausal.compiler.set_valued import SetValuedLaws
+from acausal.compiler.time_conditions import by_clock, functions, planned_times, truth
 from acausal.compiler.vectorized import Rowwise
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
