@@ -13,8 +13,8 @@ from acausal.compiler.argument_checks import model_of, values_of
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.parameters import Settable
 from acausal.compiler.source import Source
+from acausal.compiler.structural_zeros import mend_of_zeros
 from acausal.compiler.time_conditions import split_clock
-from acausal.compiler.zeros import mend_of_zeros
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import flatten
 from acausal.garbage import uncollected
