@@ -14,7 +14,7 @@ import scipy
 from acausal.compiler.algebraic_newton import Pass, make_passes
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
-from acausal.compiler.constraints import Constraints
+from acausal.compiler.constraint_jacobian import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.event_conditions import Guards
 from acausal.compiler.linearization import Local

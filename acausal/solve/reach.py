@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
-from acausal.compiler.constraints import Constraints
+from acausal.compiler.constraint_jacobian import Constraints
 from acausal.compiler.memo import latest, once
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, parts
