@@ -7,7 +7,7 @@ import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.memo import once
-from acausal.compiler.set_valued import MODE
+from acausal.compiler.set_valued_laws import MODE
 from acausal.core import Equations, Sampled, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
 from acausal.instructions import READABLE
 from acausal.language.functions import time

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.rounding import terms
-from acausal.compiler.set_valued import SetValuedLaws
+from acausal.compiler.set_valued_laws import SetValuedLaws
 from acausal.compiler.time_conditions import by_clock, functions, planned_times, truth
 from acausal.compiler.vectorized import Rowwise
 from acausal.errors import DeclarationError

@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.full_residuals import EQUATION, START
-from acausal.compiler.set_valued import MODE, SHARED
+from acausal.compiler.set_valued_laws import MODE, SHARED
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, without_value
