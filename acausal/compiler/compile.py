@@ -11,8 +11,8 @@ import numpy as np
 
 from acausal.compiler.argument_checks import model_of, values_of
 from acausal.compiler.compiled_model import CompiledModel
+from acausal.compiler.model_source import Source
 from acausal.compiler.parameters import Settable
-from acausal.compiler.source import Source
 from acausal.compiler.structural_zeros import mend_of_zeros
 from acausal.compiler.time_conditions import split_clock
 from acausal.errors import StructurallySingularError, UnbalancedModelError

@@ -19,10 +19,10 @@ from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.event_conditions import Guards
 from acausal.compiler.linearization import Local
 from acausal.compiler.memo import once
+from acausal.compiler.model_source import Source, pickled
 from acausal.compiler.parameters import Settable
 from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
-from acausal.compiler.source import Source, pickled
 from acausal.compiler.vectorized import Rowwise
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
