@@ -9,8 +9,8 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language.quantities import refused
-from acausal.result.kept import Kept
 from acausal.result.lookup import Quantity
+from acausal.result.snapshot import Kept
 from acausal.units import parse as unit_of
 
 # Of a result: its values by path, as columns of shape (times, n), in column-major order.

@@ -8,8 +8,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.result.kept import Kept
 from acausal.result.lookup import Quantity
+from acausal.result.snapshot import Kept
 
 
 def read(
