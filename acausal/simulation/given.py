@@ -13,8 +13,8 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
+from acausal.result.from_arrays import checked_columns, checked_outputs, checked_times, kept_of
 from acausal.result.lookup import find, names
-from acausal.result.made import checked_columns, checked_outputs, checked_times, kept_of
 from acausal.solve.given import evaluator_of
 from acausal.units import parse
 
