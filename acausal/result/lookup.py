@@ -18,7 +18,7 @@ from acausal.language.component import Component, Path
 from acausal.language.expression import Equation, Expr
 from acausal.language.functions import time
 from acausal.language.values import shown, shown_or_kind
-from acausal.result.unknown import unknown
+from acausal.result.unknown_path import unknown
 from acausal.symbols import vec
 
 Key = str | Path | Expr

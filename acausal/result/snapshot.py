@@ -15,7 +15,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Expr
 from acausal.result.lookup import Key, Quantity, choose, find, names, no_path, not_readable, parse
-from acausal.result.unknown import unknown
+from acausal.result.unknown_path import unknown
 
 # Entries whose values are computed at once.
 AT_ONCE = 2000
