@@ -14,10 +14,10 @@ from acausal.errors import DeclarationError, caution
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
+from acausal.result.evaluation import read
 from acausal.result.invalid_values import no_numbers
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
 from acausal.result.plots import Series, draw, opened, save
-from acausal.result.reading import read
 from acausal.result.snapshot import Kept, keep
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
