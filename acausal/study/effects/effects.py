@@ -15,7 +15,7 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.language.data import same
 from acausal.policy import POLICY
-from acausal.simulation.asked import check_choice
+from acausal.simulation.settings_checks import check_choice
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.listing import Effect, fullest
 from acausal.study.effects.result import Effects

@@ -11,7 +11,7 @@ from acausal.language.component import Component
 from acausal.language.fields import Field
 from acausal.language.values import shown
 from acausal.result.lookup import find, match
-from acausal.simulation.asked import check_intervals
+from acausal.simulation.settings_checks import check_intervals
 from acausal.simulation.stop_time import check_stop_time, own_stop_time
 
 

@@ -20,7 +20,7 @@ from acausal.result import check_writable
 from acausal.result.files import whole
 from acausal.result.plots import save
 from acausal.result.tables import read_csv, write_csv
-from acausal.simulation.asked import check_choice
+from acausal.simulation.settings_checks import check_choice
 from acausal.study.measuring.arguments import (
     check_counts,
     check_run,
