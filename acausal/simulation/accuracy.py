@@ -17,7 +17,7 @@ from acausal.errors import SimulationError
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.estimate import Estimate, estimate
-from acausal.simulation.runs import Numerics, Runs
+from acausal.simulation.run_cache import Numerics, Runs
 from acausal.solve.integrate.methods import chosen
 
 ACCURACY = POLICY.accuracy

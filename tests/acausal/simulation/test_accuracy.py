@@ -239,9 +239,9 @@ def test_what_cannot_be_reached_is_refused_with_the_best():
 
 
 def test_interrupt_leaves_the_best(monkeypatch):
-    from acausal.simulation import runs
+    from acausal.simulation import run_cache
 
-    called, real = [], runs.run
+    called, real = [], run_cache.run
 
     def stopped(*arguments: Any) -> ac.Result:
         called.append(arguments)
@@ -249,7 +249,7 @@ def test_interrupt_leaves_the_best(monkeypatch):
             raise KeyboardInterrupt
         return real(*arguments)
 
-    monkeypatch.setattr(runs, "run", stopped)
+    monkeypatch.setattr(run_cache, "run", stopped)
     with pytest.raises(KeyboardInterrupt) as caught:
         ac.simulate(SpinUp(), stop_time=20.0, accuracy=1e-4, method="idas")
     result = caught.value.result  # type: ignore[attr-defined]
