@@ -19,7 +19,7 @@ from acausal.result.lookup import Tree
 from acausal.result.plots import Series
 from acausal.result.statistics import Statistics
 from acausal.result.tables import Table
-from acausal.simulation.accuracy import chosen_text
+from acausal.simulation.accuracy_control import chosen_text
 from acausal.units import parse
 
 FINAL_VALUES = 20

@@ -11,7 +11,7 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
-from acausal.simulation.accuracy import reach
+from acausal.simulation.accuracy_control import reach
 from acausal.simulation.run_cache import Runs
 from acausal.simulation.settings_checks import planned
 from acausal.solve.integrate.settings import Progress
