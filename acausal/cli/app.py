@@ -30,8 +30,8 @@ from acausal.cli.streams import ended, tell, tolerant
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
+from acausal.simulation.model_settings import settled
 from acausal.simulation.run_cache import adaptive
-from acausal.simulation.settings import settled
 from acausal.simulation.settings_checks import check_choice, planned
 
 if TYPE_CHECKING:

@@ -30,7 +30,7 @@ from acausal.language.docstring import first_line
 from acausal.language.functions import time
 from acausal.locks import alone
 from acausal.policy import POLICY
-from acausal.simulation.settings import settled
+from acausal.simulation.model_settings import settled
 from acausal.simulation.settings_checks import planned
 from acausal.solve.problem import Problem
 from acausal.solve.run import sizes_of_run

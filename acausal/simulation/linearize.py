@@ -19,7 +19,7 @@ from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
-from acausal.simulation.settings import check_number, settled
+from acausal.simulation.model_settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.opening import opening
 from acausal.solve.points import Point

@@ -12,7 +12,7 @@ from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.policy import POLICY
-from acausal.simulation.settings import check_number, settled
+from acausal.simulation.model_settings import check_number, settled
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task
 from acausal.solve.start.initialize import INITIAL

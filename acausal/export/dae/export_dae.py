@@ -25,7 +25,7 @@ from acausal.language.functions import feedback, initial, time
 from acausal.language.validity import Expectation, Separation
 from acausal.locks import alone
 from acausal.result import check_writable
-from acausal.simulation.settings import declared_settings
+from acausal.simulation.model_settings import declared_settings
 
 # Symbols that all models share.
 SHARED = {"time": time, "initial": initial, "feedback": feedback}

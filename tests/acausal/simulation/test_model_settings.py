@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 import acausal as ac
 from acausal import DeclarationError, Model, Scalar, der, output, parameter, piecewise, structural
 from acausal.cli.app import app
-from acausal.simulation.settings import DEFAULTS
+from acausal.simulation.model_settings import DEFAULTS
 from acausal.simulation.settings_checks import planned
 
 
