@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import Any
 
-from acausal.study.effects.rows import EffectRow
+from acausal.study.effects.effect_rows import EffectRow
 
 Search = Generator[Mapping[str, Any], EffectRow, EffectRow]
 

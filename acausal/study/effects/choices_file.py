@@ -11,9 +11,9 @@ from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import unknown_name
 from acausal.language.component import Component
 from acausal.result import document, read_text, shown_name
+from acausal.study.effects.effect_rows import ALL
 from acausal.study.effects.listing import effects_of, fitting
 from acausal.study.effects.result import Effects
-from acausal.study.effects.rows import ALL
 
 
 def choices_document(found: Effects, scene: str, settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -12,8 +12,8 @@ from acausal.language.data import same
 from acausal.policy import POLICY
 from acausal.result.files import whole
 from acausal.result.tables import Table, write_csv
+from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, as_fast
 from acausal.study.effects.listing import Effect
-from acausal.study.effects.rows import ALL, EffectRow, Interaction, as_fast
 from acausal.study.effects.tables import brief_changes, changes, columns, number, sets, together
 
 WIDTH = 120

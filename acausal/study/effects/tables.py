@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from acausal.result.tables import Table
-from acausal.study.effects.rows import ALL, EffectRow, Interaction
+from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction
 
 WORDS = ("effect", "in", "switched together", "for", "switched")
 COSTS = ("time", "operations", "equations", "steps")
