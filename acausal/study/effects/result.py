@@ -13,8 +13,8 @@ from acausal.policy import POLICY
 from acausal.result.files import whole
 from acausal.result.tables import Table, write_csv
 from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, as_fast
+from acausal.study.effects.effect_tables import brief_changes, changes, columns, number, sets, together
 from acausal.study.effects.listing import Effect
-from acausal.study.effects.tables import brief_changes, changes, columns, number, sets, together
 
 WIDTH = 120
 ELSEWHERE = "(the changes of every output: --csv FILE, --markdown FILE)"
