@@ -4,7 +4,7 @@
 """
 
 from acausal.study.effects.effects import effects
-from acausal.study.effects.result import Effects
+from acausal.study.effects.effects_result import Effects
 from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.deviation import deviations
 from acausal.study.measuring.measure import measure

@@ -12,8 +12,8 @@ from acausal.flatten.instantiate import unknown_name
 from acausal.language.component import Component
 from acausal.result import document, read_text, shown_name
 from acausal.study.effects.effect_rows import ALL
+from acausal.study.effects.effects_result import Effects
 from acausal.study.effects.listing import effects_of, fitting
-from acausal.study.effects.result import Effects
 
 
 def choices_document(found: Effects, scene: str, settings: Mapping[str, Any]) -> dict[str, Any]:

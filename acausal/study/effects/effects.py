@@ -18,8 +18,8 @@ from acausal.policy import POLICY
 from acausal.simulation.settings_checks import check_choice
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, interaction, row
+from acausal.study.effects.effects_result import Effects
 from acausal.study.effects.listing import Effect, fullest
-from acausal.study.effects.result import Effects
 from acausal.study.effects.variants import Choices, Variants
 from acausal.study.measuring.arguments import (
     check_counts,
