@@ -12,8 +12,8 @@ from acausal.study.measuring.pool import cluster, processes, run
 from acausal.study.measuring.shipping import pack
 from acausal.study.studies.formulation import Formulation, formulations_of, with_and_without
 from acausal.study.studies.reference import Reference
-from acausal.study.studies.rows import StudyRow
 from acausal.study.studies.study import Study, study
+from acausal.study.studies.study_rows import StudyRow
 
 __all__ = [
     "Case",

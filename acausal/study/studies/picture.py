@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from acausal.errors import DeclarationError
 from acausal.result.plots import canvas
 from acausal.study.studies.reference import Reference
-from acausal.study.studies.rows import STEP, TOLERANCE, StudyRow, pareto
+from acausal.study.studies.study_rows import STEP, TOLERANCE, StudyRow, pareto
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

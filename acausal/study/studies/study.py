@@ -40,7 +40,7 @@ from acausal.study.studies.formulation import Formulation, formulations_of, with
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
 from acausal.study.studies.reference import Reference, make, matching
-from acausal.study.studies.rows import MODEL, StudyRow, pareto, rows_of
+from acausal.study.studies.study_rows import MODEL, StudyRow, pareto, rows_of
 from acausal.study.studies.table import cells, columns
 
 if TYPE_CHECKING:

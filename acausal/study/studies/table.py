@@ -7,7 +7,7 @@ from typing import Any
 
 from acausal.result.tables import Table
 from acausal.study.studies.reference import Reference
-from acausal.study.studies.rows import StudyRow
+from acausal.study.studies.study_rows import StudyRow
 
 WORDS = ("", "formulation", "size", "method", "constraints", "limited by")
 

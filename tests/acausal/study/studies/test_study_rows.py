@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from acausal.study import Case, Formulation, Measurement, Reference, Study, StudyRow
-from acausal.study.studies.rows import pareto, rows_of
+from acausal.study.studies.study_rows import pareto, rows_of
 from acausal.study.studies.table import cells, columns
 
 T = np.linspace(0, 1, 11)
