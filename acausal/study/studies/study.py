@@ -41,7 +41,7 @@ from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
 from acausal.study.studies.reference import Reference, make, matching
 from acausal.study.studies.study_rows import MODEL, StudyRow, pareto, rows_of
-from acausal.study.studies.table import cells, columns
+from acausal.study.studies.study_table import cells, columns
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

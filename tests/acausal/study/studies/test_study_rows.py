@@ -5,7 +5,7 @@ import pytest
 
 from acausal.study import Case, Formulation, Measurement, Reference, Study, StudyRow
 from acausal.study.studies.study_rows import pareto, rows_of
-from acausal.study.studies.table import cells, columns
+from acausal.study.studies.study_table import cells, columns
 
 T = np.linspace(0, 1, 11)
 FORMS = (Formulation("good", {}, {"n": (2, 4)}, exact=True), Formulation("bad", {}, {"n": (2, 4)}))
