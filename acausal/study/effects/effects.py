@@ -21,17 +21,17 @@ from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, inter
 from acausal.study.effects.effects_result import Effects
 from acausal.study.effects.listing import Effect, fullest
 from acausal.study.effects.variants import Choices, Variants
-from acausal.study.measuring.arguments import (
+from acausal.study.measuring.case import Case, Job, Measurement
+from acausal.study.measuring.pool import executor_of
+from acausal.study.measuring.session import Progress
+from acausal.study.measuring.shipping import pack
+from acausal.study.measuring.study_arguments import (
     check_counts,
     check_run,
     check_shares,
     outputs_of,
     stop_time_of,
 )
-from acausal.study.measuring.case import Case, Job, Measurement
-from acausal.study.measuring.pool import executor_of
-from acausal.study.measuring.session import Progress
-from acausal.study.measuring.shipping import pack
 
 
 @fitting

@@ -10,9 +10,9 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any
 
 from acausal.errors import DeclarationError, SimulationError
-from acausal.study.measuring.arguments import check_counts
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.measure import measure
+from acausal.study.measuring.study_arguments import check_counts
 from acausal.study.measuring.workers import Workers, initialise, without_main
 
 # Many cases at once on few cores would share threads of linear algebra, and no time would mean anything.

@@ -10,9 +10,9 @@ from typing import Any
 from acausal.errors import DeclarationError
 from acausal.language.values import shown
 from acausal.simulation.settings_checks import CHOICES, CONSTRAINTS
-from acausal.study.measuring.arguments import items
 from acausal.study.measuring.case import Case
 from acausal.study.measuring.run_function import check_steps
+from acausal.study.measuring.study_arguments import items
 from acausal.study.studies.formulation import Formulation
 
 EXAMPLES = {

@@ -21,7 +21,13 @@ from acausal.result.files import whole
 from acausal.result.plots import save
 from acausal.result.tables import read_csv, write_csv
 from acausal.simulation.settings_checks import check_choice
-from acausal.study.measuring.arguments import (
+from acausal.study.measuring.case import Case, Job
+from acausal.study.measuring.journal import Journal, identity
+from acausal.study.measuring.pool import executor_of
+from acausal.study.measuring.run_function import check_sendable
+from acausal.study.measuring.session import Progress, Session
+from acausal.study.measuring.shipping import pack
+from acausal.study.measuring.study_arguments import (
     check_counts,
     check_run,
     check_shares,
@@ -30,12 +36,6 @@ from acausal.study.measuring.arguments import (
     stop_time_of,
     table_of,
 )
-from acausal.study.measuring.case import Case, Job
-from acausal.study.measuring.journal import Journal, identity
-from acausal.study.measuring.pool import executor_of
-from acausal.study.measuring.run_function import check_sendable
-from acausal.study.measuring.session import Progress, Session
-from acausal.study.measuring.shipping import pack
 from acausal.study.studies.formulation import Formulation, formulations_of, within
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
