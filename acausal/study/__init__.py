@@ -8,8 +8,8 @@ from acausal.study.effects.effects_result import Effects
 from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.deviation import deviations
 from acausal.study.measuring.measure import measure
+from acausal.study.measuring.model_pickling import pack
 from acausal.study.measuring.pool import cluster, processes, run
-from acausal.study.measuring.shipping import pack
 from acausal.study.studies.formulation import Formulation, formulations_of, with_and_without
 from acausal.study.studies.reference import Reference
 from acausal.study.studies.study import Study, study

@@ -22,9 +22,9 @@ from acausal.study.effects.effects_result import Effects
 from acausal.study.effects.listing import Effect, fullest
 from acausal.study.effects.variants import Choices, Variants
 from acausal.study.measuring.case import Case, Job, Measurement
+from acausal.study.measuring.model_pickling import pack
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress
-from acausal.study.measuring.shipping import pack
 from acausal.study.measuring.study_arguments import (
     check_counts,
     check_run,

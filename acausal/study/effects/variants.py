@@ -17,8 +17,8 @@ from acausal.result.lookup import find
 from acausal.study.effects.listing import fitting
 from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.journal import Journal
+from acausal.study.measuring.model_pickling import unpack
 from acausal.study.measuring.session import Progress, Session
-from acausal.study.measuring.shipping import unpack
 
 Choices = Mapping[str, Any]
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from acausal.language.data import plain
 from acausal.policy import POLICY
+from acausal.study.measuring.model_pickling import pack, unpack
 from acausal.study.measuring.run_function import identity_of
-from acausal.study.measuring.shipping import pack, unpack
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,8 +19,8 @@ from acausal.result import Result
 from acausal.simulation import forget, simulate
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
+from acausal.study.measuring.model_pickling import unpack
 from acausal.study.measuring.own_run import take
-from acausal.study.measuring.shipping import unpack
 
 KEPT = 2
 # Compiled models of this process, the last used last.

@@ -16,7 +16,7 @@ from acausal.language.values import shown
 from acausal.result import Result
 from acausal.study.measuring.case import Job
 from acausal.study.measuring.limit import TooLong
-from acausal.study.measuring.shipping import unpack
+from acausal.study.measuring.model_pickling import unpack
 
 # Of an output interval: how far a time may be from the one that was asked for, by rounding.
 AT = 1e-6

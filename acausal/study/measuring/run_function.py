@@ -15,7 +15,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language.data import plain
 from acausal.language.values import shown
-from acausal.study.measuring.shipping import pack
+from acausal.study.measuring.model_pickling import pack
 
 
 def check_steps(name: str, steps: Any) -> None:

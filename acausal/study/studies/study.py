@@ -23,10 +23,10 @@ from acausal.result.tables import read_csv, write_csv
 from acausal.simulation.settings_checks import check_choice
 from acausal.study.measuring.case import Case, Job
 from acausal.study.measuring.journal import Journal, identity
+from acausal.study.measuring.model_pickling import pack
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.run_function import check_sendable
 from acausal.study.measuring.session import Progress, Session
-from acausal.study.measuring.shipping import pack
 from acausal.study.measuring.study_arguments import (
     check_counts,
     check_run,

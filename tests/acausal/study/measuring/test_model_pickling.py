@@ -38,7 +38,7 @@ class Mine(Model):
 RECEIVER = """
 import sys
 import acausal as ac
-from acausal.study.measuring.shipping import unpack
+from acausal.study.measuring.model_pickling import unpack
 model = unpack(sys.stdin.buffer.read())
 print(ac.simulate(model, stop_time=2, tolerance=1e-9)["x"][-1])
 """
