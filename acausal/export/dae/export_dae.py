@@ -13,7 +13,7 @@ import numpy as np
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.requirements import Stated, statements
 from acausal.errors import ExportError
-from acausal.export.dae import archive, tree
+from acausal.export.dae import archive, component_tree
 from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.plain import encoded
@@ -59,11 +59,11 @@ def export_dae(
     compiled, p = ready(model, parameters)
     writer = Writer()
     kept, unchecked = _stated(compiled)
-    values = tree.evaluated(compiled.tree)
+    values = component_tree.evaluated(compiled.tree)
     inside = {
         "model": encoded(compiled.reduced, writer.add),
         "values": encoded(p, writer.add),
-        "tree": tree.written(compiled.tree, values, kept, writer.add),
+        "tree": component_tree.written(compiled.tree, values, kept, writer.add),
         "settings": {name: encoded(value, writer.add) for name, value in declared_settings(compiled).items()},
     }
     described = shown(compiled, p, values, writer.add)

@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.export.dae import archive, tree
+from acausal.export.dae import archive, component_tree
 from acausal.export.dae.export_dae import SHARED
 from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
 from acausal.export.dae.plain import decoded
@@ -64,7 +64,7 @@ def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedMode
         return decoded(said, expressions, more)
 
     more: dict[str, dict[str, Any]] = {"FlatEquations": {"givers": lambda row: (), "repeats": lambda: ()}}
-    root = tree.read(inside["tree"], decode)
+    root = component_tree.read(inside["tree"], decode)
     if not isinstance(root, Component):
         raise ValueError("there is no model")
     more["FlatModel"] = {"tree": root}
