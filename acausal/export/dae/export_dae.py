@@ -13,7 +13,7 @@ import numpy as np
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.requirements import Stated, statements
 from acausal.errors import ExportError
-from acausal.export.dae import archive, component_tree
+from acausal.export.dae import component_tree, dae_archive
 from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.plain import encoded
@@ -82,13 +82,13 @@ def export_dae(
         "expressions": operations.shapes,
     }
     members = {
-        "model.json": archive.as_json(inside),
+        "model.json": dae_archive.as_json(inside),
         "model.mo": _modelica(compiled, p).encode(),
         "constants": operations.constants.tobytes(),
         "operations": operations.operations.tobytes(),
         "places": operations.places.tobytes(),
     }
-    archive.write(path, first, members)
+    dae_archive.write(path, first, members)
 
 
 def _modelica(compiled: CompiledModel, p: np.ndarray) -> str:

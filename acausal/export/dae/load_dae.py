@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.export.dae import archive, component_tree
+from acausal.export.dae import component_tree, dae_archive
 from acausal.export.dae.export_dae import SHARED
 from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
 from acausal.export.dae.plain import decoded
@@ -42,14 +42,14 @@ def load_dae(path: str | Path) -> CompiledModel:
         If the file cannot be read, is foreign, of another version, cut or damaged.
     """
     begun = clock.perf_counter()
-    first, members = archive.read(path)
+    first, members = dae_archive.read(path)
     try:
         reduced, settings = _read(first, members)
         compiled = CompiledModel(reduced, {}, None, declared=settings)
         compiled.parameter_values(None)
     except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError):
         # The checksums fit: what is wrong was written so.
-        archive.refuse(path, "its content contradicts itself, so that it was not written by export_dae")
+        dae_archive.refuse(path, "its content contradicts itself, so that it was not written by export_dae")
     compiled.seconds["load"] = clock.perf_counter() - begun
     return compiled
 

@@ -37,7 +37,7 @@ from acausal import (
     when,
 )
 from acausal.core.tape import KINDS
-from acausal.export.dae import archive
+from acausal.export.dae import dae_archive
 from acausal.export.dae.expressions import INT, NAMES, UNARY, Operations, Reader, Writer
 from models import SCENES
 from tests.shared import compiled
@@ -349,7 +349,7 @@ def test_damaged_files_are_refused_or_the_same(good, tmp_path):
     assert refused > 100
 
 
-@pytest.mark.parametrize("name", [archive.FIRST, *archive.MEMBERS])
+@pytest.mark.parametrize("name", [dae_archive.FIRST, *dae_archive.MEMBERS])
 def test_a_member_that_is_changed_missing_or_there_twice_is_refused(good, tmp_path, name):
     content = members(good)
     at = len(content[name]) // 2
@@ -357,7 +357,7 @@ def test_a_member_that_is_changed_missing_or_there_twice_is_refused(good, tmp_pa
     changed = content[name][:at] + other + content[name][at + 1 :]
     assert f"{name} is damaged" in why(packed(tmp_path / "b.dae", {**content, name: changed}))
     less = {k: v for k, v in content.items() if k != name}
-    assert ("no open DAE" if name == archive.FIRST else "each once") in why(packed(tmp_path / "c.dae", less))
+    assert ("no open DAE" if name == dae_archive.FIRST else "each once") in why(packed(tmp_path / "c.dae", less))
 
 
 def test_foreign_files_are_refused(good, tmp_path):
@@ -379,12 +379,12 @@ def test_foreign_files_are_refused(good, tmp_path):
 
 
 def test_absurd_sizes_are_refused(good, tmp_path, monkeypatch):
-    monkeypatch.setattr(archive, "MOST", 1 << 10)
+    monkeypatch.setattr(dae_archive, "MOST", 1 << 10)
     assert "its content has more than" in why(good)
 
 
 def test_content_that_contradicts_itself_is_refused(good, tmp_path):
-    first, content = archive.read(good)
+    first, content = dae_archive.read(good)
     head = {k: v for k, v in first.items() if k not in ("format", "version", "sha256", "sha256_of_this")}
     for name, old, new in (
         ("model.json", b'"is":"Plan"', b'"is":"Plane"'),
@@ -392,7 +392,7 @@ def test_content_that_contradicts_itself_is_refused(good, tmp_path):
         ("model.json", b'"expression":1}', b'"expression":123456}'),
         ("places", content["places"][:8], b"\xff" * 8),
     ):
-        archive.write(tmp_path / "b.dae", head, {**content, name: content[name].replace(old, new, 1)})
+        dae_archive.write(tmp_path / "b.dae", head, {**content, name: content[name].replace(old, new, 1)})
         assert "contradicts itself" in why(tmp_path / "b.dae")
 
 
