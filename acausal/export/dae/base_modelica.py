@@ -10,8 +10,8 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import AcausalError
+from acausal.export.dae.dae_listing import unknown_names
 from acausal.export.dae.modelica_text import Names, hashed, number, texts, written
-from acausal.export.dae.shown import unknown_names
 from acausal.flatten.discontinuities import Guard
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
