@@ -14,7 +14,7 @@ import numpy as np
 
 from acausal.compiler.requirements import Stated
 from acausal.errors import DeclarationError, caution
-from acausal.export.dae.plain import encoded, without_folder
+from acausal.export.dae.json_values import encoded, without_folder
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector, Model, Record

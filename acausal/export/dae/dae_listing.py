@@ -11,7 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.compiler.full_residuals import origin_of
-from acausal.export.dae.plain import encoded, without_folder
+from acausal.export.dae.json_values import encoded, without_folder
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr

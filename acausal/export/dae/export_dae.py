@@ -17,7 +17,7 @@ from acausal.export.dae import component_tree, dae_archive
 from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.dae_listing import shown
 from acausal.export.dae.expressions import NAMES, Writer
-from acausal.export.dae.plain import encoded
+from acausal.export.dae.json_values import encoded
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.language.docstring import first_line

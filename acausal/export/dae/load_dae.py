@@ -13,7 +13,7 @@ from acausal.compiler import CompiledModel
 from acausal.export.dae import component_tree, dae_archive
 from acausal.export.dae.export_dae import SHARED
 from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
-from acausal.export.dae.plain import decoded
+from acausal.export.dae.json_values import decoded
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
