@@ -15,9 +15,9 @@ from typing import IO, TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 
 from acausal.cli.faults import brief, ended, place_in
+from acausal.cli.option_values import read_settings
 from acausal.cli.scenes import instance
 from acausal.cli.streams import WRONG, aside, tell, unwritten
-from acausal.cli.values import read_settings
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import check_writable

@@ -8,9 +8,9 @@ import typer
 
 from acausal.cli.app import app
 from acausal.cli.common import Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
+from acausal.cli.option_values import read_settings
 from acausal.cli.output import check_outputs, runs_bar, write_json
 from acausal.cli.scenes import file_of, find_scene, instance
-from acausal.cli.values import read_settings
 from acausal.policy import POLICY
 
 

@@ -9,10 +9,10 @@ import typer
 
 from acausal.cli.app import app
 from acausal.cli.common import Initial, Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
+from acausal.cli.option_values import read_settings, read_switches
 from acausal.cli.output import check_outputs, runs_bar, write_json
 from acausal.cli.scenes import file_of, find_scene, instance
 from acausal.cli.streams import tell
-from acausal.cli.values import read_settings, read_switches
 from acausal.errors import DeclarationError
 from acausal.language.component import Model
 from acausal.policy import POLICY

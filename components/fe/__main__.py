@@ -10,9 +10,9 @@ import typer
 
 from acausal import DeclarationError
 from acausal.cli.common import Quiet, running
+from acausal.cli.option_values import pair, value_of
 from acausal.cli.output import check_outputs, steps_bar
 from acausal.cli.streams import ended, tolerant
-from acausal.cli.values import pair, value_of
 from acausal.result import shown_name
 from components.fe import ReducedBody, read_mesh, read_sid, reduce_body
 from components.fe.formats.kinds import SID, reader_of

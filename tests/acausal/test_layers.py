@@ -81,7 +81,7 @@ INSIDE = {
     "components/fe/formats/text.py": FILES,
     "components/fe/recover.py": FILES,
     "components/fe/__main__.py": FILES
-    | {"acausal.cli.common", "acausal.cli.output", "acausal.cli.streams", "acausal.cli.values"},
+    | {"acausal.cli.common", "acausal.cli.output", "acausal.cli.streams", "acausal.cli.option_values"},
 }
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 
