@@ -29,7 +29,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Whole:
+class FullResiduals:
     """All rows of a model.
 
     Attributes
@@ -70,7 +70,7 @@ class Whole:
 
 
 @once
-def whole(compiled: Any) -> Whole:
+def full_residuals(compiled: Any) -> FullResiduals:
     """Make the functions of all rows of a compiled model."""
     r: ReducedModel = compiled.reduced
     arguments = [r.unknowns, r.p, time.sx, r.constants, initial.sx]
@@ -81,7 +81,7 @@ def whole(compiled: Any) -> Whole:
     column = stacked([row.expression for row in rows])
     required = _remaining(r, [statement.sx for statement, _ in compiled.requirements.at_start])
     J = ca.jacobian(stacked([row.expression for row in equations]), r.unknowns)
-    return Whole(
+    return FullResiduals(
         rows=rows,
         names=r.names,
         solved=np.setdiff1d(np.arange(r.unknowns.numel()), r.plan.states),

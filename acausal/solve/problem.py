@@ -10,7 +10,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_motion, core_square
-from acausal.compiler.full_residuals import whole
+from acausal.compiler.full_residuals import full_residuals
 from acausal.compiler.linearization import Local, with_entries
 from acausal.compiler.memo import once
 from acausal.compiler.vectorized import Rowwise
@@ -81,7 +81,7 @@ class Problem:
 
     def unknowns(self, at: Point, flag: float = 0.0) -> np.ndarray:
         """Return all unknowns of the model as it was stated, those that are solved explicitly too."""
-        return whole(self.compiled).unknowns(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0].copy()
+        return full_residuals(self.compiled).unknowns(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0].copy()
 
     def constraints(self, at: Point) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return the residuals of the constraints and their Jacobian by the states."""
