@@ -17,7 +17,7 @@ from acausal.compiler.constants import Layout
 from acausal.compiler.constraint_jacobian import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.event_conditions import Guards
-from acausal.compiler.linearization import Local
+from acausal.compiler.linearization import PointLinearization
 from acausal.compiler.memo import once
 from acausal.compiler.model_source import Source, pickled
 from acausal.compiler.parameters import Settable
@@ -174,10 +174,12 @@ class CompiledModel:
         J = ca.jacobian(self._equations, ca.vertcat(self.reduced.x, self.reduced.z))
         return Call(ca.Function("local", self.arguments, [ca.densify(self._equations), J]))
 
-    def at(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray, flag: float) -> Local:
+    def at(
+        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray, flag: float
+    ) -> PointLinearization:
         """Evaluate equations and Jacobian at a point."""
         value, entries = self.local(x, z, p, t, constants, flag)
-        return Local(value.copy(), entries.copy(), self.pattern)
+        return PointLinearization(value.copy(), entries.copy(), self.pattern)
 
     @cached_property
     def pattern(self) -> scipy.sparse.csc_matrix:

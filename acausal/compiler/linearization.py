@@ -18,7 +18,7 @@ def with_entries(pattern: scipy.sparse.csc_matrix, entries: np.ndarray) -> scipy
 
 
 @dataclass(frozen=True, eq=False)
-class Local:
+class PointLinearization:
     """Value and Jacobian of the model at one point.
 
     `ode`, `alg` and `conditions` are stacked in `value`; `entries` are those of their derivatives by (x, z), where `pattern`

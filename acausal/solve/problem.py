@@ -11,7 +11,7 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_motion, core_square
 from acausal.compiler.full_residuals import full_residuals
-from acausal.compiler.linearization import Local, with_entries
+from acausal.compiler.linearization import PointLinearization, with_entries
 from acausal.compiler.memo import once
 from acausal.compiler.vectorized import Rowwise
 from acausal.core import Settler, library
@@ -75,7 +75,7 @@ class Problem:
         """Return ode, alg and conditions; `flag` is 1 while the initial system holds. Overwritten by the next call."""
         return self.compiled.values(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0]
 
-    def local(self, at: Point, flag: float = 0.0) -> Local:
+    def local(self, at: Point, flag: float = 0.0) -> PointLinearization:
         """Return the same with their Jacobian by states and algebraic unknowns."""
         return self.compiled.at(at.x, at.z, self.p, at.time, at.constants.vector, flag)
 

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.linearization import Local
+from acausal.compiler.linearization import PointLinearization
 from acausal.compiler.memo import once
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 
 
-def with_direct(problem: Problem, direct: np.ndarray, at: Point, local: Local) -> Point:
+def with_direct(problem: Problem, direct: np.ndarray, at: Point, local: PointLinearization) -> Point:
     """Give states the values that conditions state for them, see `InitialSystem.given`; `local` is the initial system there."""
     rows, states = direct[0] + problem.nx, direct[1]
     x = at.x.copy()

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.linearization import Local
+from acausal.compiler.linearization import PointLinearization
 from acausal.compiler.memo import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
@@ -188,17 +188,17 @@ def _algebraic(compiled: CompiledModel) -> InitialSystem:
     return InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(compiled.nx))
 
 
-def rounding(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def rounding(local: PointLinearization, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
     return NEWTON.terms * np.finfo(float).eps * reach(local, y, nominal)
 
 
-def reach(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def reach(local: PointLinearization, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the change in each row by unknowns of their present and nominal sizes together."""
     return local.magnitudes(np.abs(y) + nominal)
 
 
-def terms(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def terms(local: PointLinearization, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the size of the terms of each row, and at least that of its smallest one at nominal values."""
     size, J = local.terms(nominal), local.pattern
     least = np.full(J.shape[0], np.inf)

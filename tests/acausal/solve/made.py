@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import scipy
 
-from acausal.compiler.linearization import Local
+from acausal.compiler.linearization import PointLinearization
 from acausal.solve.points import Point
 
 Function = Callable[[np.ndarray], np.ndarray]
@@ -43,11 +43,11 @@ class Made:
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
         return np.asarray(self.f(at.y), dtype=float)
 
-    def local(self, at: Point, flag: float = 0.0) -> Local:
+    def local(self, at: Point, flag: float = 0.0) -> PointLinearization:
         self.seen.append(at.y)
         J = self.compiled.pattern
         columns = np.repeat(np.arange(J.shape[1]), np.diff(J.indptr))
-        return Local(self.values(at), np.asarray(self.jacobian(at.y), dtype=float)[J.indices, columns], J)
+        return PointLinearization(self.values(at), np.asarray(self.jacobian(at.y), dtype=float)[J.indices, columns], J)
 
     def solved(self, at: Point, most: int) -> None:
         """The core has none of these functions."""
