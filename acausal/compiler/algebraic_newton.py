@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.vectorized import Rowwise
+from acausal.compiler.vectorized import Vectorized
 from acausal.reduce import Level, solution_levels
 
 
@@ -21,13 +21,13 @@ class Pass:
         Positions among the algebraic unknowns.
     linear : bool
         Whether one step is enough, up to rounding.
-    function : Rowwise
+    function : Vectorized
         From x, z, parameters, time and constants: these unknowns after the step.
     """
 
     unknowns: np.ndarray
     linear: bool
-    function: Rowwise
+    function: Vectorized
 
 
 def make_passes(
@@ -68,4 +68,4 @@ def _joined(arguments: list[ca.SX], steps: list[tuple[Level, ca.Function]], unkn
         found = step(x, found, *others)
     chosen = np.sort(np.concatenate([unknowns[list(level.variables)] for level, _ in steps]))
     function = ca.Function("newton", [x, z, *others], [found[chosen.tolist()]])
-    return Pass(chosen, steps[0][0].linear, Rowwise(function))
+    return Pass(chosen, steps[0][0].linear, Vectorized(function))

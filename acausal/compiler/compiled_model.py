@@ -23,7 +23,7 @@ from acausal.compiler.model_source import Source, pickled
 from acausal.compiler.parameters import Settable
 from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
-from acausal.compiler.vectorized import Rowwise
+from acausal.compiler.vectorized import Vectorized
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.locks import alone
@@ -251,14 +251,14 @@ class CompiledModel:
         return self.reduced.running.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
 
     @cached_property
-    def power(self) -> Rowwise:
+    def power(self) -> Vectorized:
         """Function of x, z, parameters, time and constants: supplied and dissipated power."""
-        return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(self.powers)]))
+        return Vectorized(ca.Function("power", self.arguments[:-1], [ca.densify(self.powers)]))
 
     @cached_property
-    def rates(self) -> Rowwise:
+    def rates(self) -> Vectorized:
         """Function of x, z, parameters, time and constants: derivatives of the states."""
-        return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
+        return Vectorized(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
 
     @cached_property
     def energy(self) -> ca.SX:

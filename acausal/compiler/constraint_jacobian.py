@@ -12,7 +12,7 @@ import scipy
 from acausal.compiler.call import Call
 from acausal.compiler.linearization import with_entries
 from acausal.compiler.rounding import terms
-from acausal.compiler.vectorized import often
+from acausal.compiler.vectorized import vectorized
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars, stacked
@@ -144,7 +144,7 @@ class Constraints:
 
     @cached_property
     def _many(self) -> Callable[..., np.ndarray]:
-        return often(self._held)
+        return vectorized(self._held)
 
     def counting(self, closures: np.ndarray) -> np.ndarray:
         """Which residuals count, where closures do that are 1, and those do not that are 0, see `Constants`."""

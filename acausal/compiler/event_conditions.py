@@ -13,7 +13,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.rounding import terms
 from acausal.compiler.set_valued_laws import SetValuedLaws
 from acausal.compiler.time_conditions import by_clock, functions, planned_times, truth
-from acausal.compiler.vectorized import Rowwise
+from acausal.compiler.vectorized import Vectorized
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
@@ -249,15 +249,15 @@ class Guards:
         return self._dependence.inside(ca.veccat(*self.motion))
 
     @cached_property
-    def along(self) -> Rowwise:
+    def along(self) -> Vectorized:
         """Function of x, z, parameters, time and constants: watched excesses, then their time derivatives."""
         excess, direct, by_z = self.motion[:3]
         if not by_z.shape[1]:
-            return Rowwise(ca.Function("rates", self.arguments, [ca.vertcat(excess, direct)]))
+            return Vectorized(ca.Function("rates", self.arguments, [ca.vertcat(excess, direct)]))
         parts = ca.Function("parts", self.arguments, list(self.motion))
         inputs = [ca.MX.sym("i", a.numel()) for a in self.arguments]
         value, rate, J, own, right = parts(*inputs)
-        return Rowwise(ca.Function("rates", inputs, [ca.vertcat(value, rate - J @ ca.solve(own, right, "qr"))]))
+        return Vectorized(ca.Function("rates", inputs, [ca.vertcat(value, rate - J @ ca.solve(own, right, "qr"))]))
 
     def jump(self, guard: int) -> tuple[Call, list[tuple[bool, int]]]:
         """Function of x, z, parameters, time and constants: new values; and for each whether it is a state, and which."""

@@ -17,7 +17,7 @@ AT_ONCE = 16
 PAYS = 700
 
 
-class Rowwise:
+class Vectorized:
     """A function with one result, at many places; if it is one of scalar symbols that is called often, by a tape.
 
     Parameters
@@ -65,12 +65,12 @@ class Rowwise:
         return self._calls[size]
 
 
-def often(function: ca.Function) -> Callable[..., np.ndarray]:
-    """Return a function at many places, as `Rowwise` takes it, that is called often enough to pay for a tape.
+def vectorized(function: ca.Function) -> Callable[..., np.ndarray]:
+    """Return a function at many places, as `Vectorized` takes it, that is called often enough to pay for a tape.
 
     Parameters
     ----------
     function : casadi.Function
         The function at one place, made from SX.
     """
-    return make_tape(function).rows if library() else Rowwise(function)
+    return make_tape(function).rows if library() else Vectorized(function)

@@ -13,7 +13,7 @@ from acausal.compiler.core_equations import core_motion, core_square
 from acausal.compiler.full_residuals import full_residuals
 from acausal.compiler.linearization import PointLinearization, with_entries
 from acausal.compiler.memo import once
-from acausal.compiler.vectorized import Rowwise
+from acausal.compiler.vectorized import Vectorized
 from acausal.core import Settler, library
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
@@ -218,7 +218,7 @@ class Problem:
         square = core_motion(self.compiled)[0]
         return Settler(square) if square else None
 
-    def each(self, function: Rowwise, rows: Rows) -> np.ndarray:
+    def each(self, function: Vectorized, rows: Rows) -> np.ndarray:
         """Return the values of a function, one row for each time."""
         return function(rows.x, rows.z, self.p, rows.times[:, None], rows.constants)
 

@@ -11,7 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.memo import once
 from acausal.compiler.requirements import Stated, refuse, statements
-from acausal.compiler.vectorized import Rowwise
+from acausal.compiler.vectorized import Vectorized
 from acausal.errors import InitializationError
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
@@ -31,7 +31,7 @@ class Watch:
     """Statements of a compiled model, and the function of them."""
 
     stated: list[Any]
-    function: Rowwise
+    function: Vectorized
     wanted: frozenset[int]
 
 
@@ -47,7 +47,7 @@ def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> W
             origin = stated[k * len(stated) // len(entries)][1]
             refuse_undeclared(r.resolve(entry), [*arguments, initial.sx], f"{origin}: ")
         raise
-    return Watch(stated, Rowwise(function), frozenset(compiled.dependence.inside(column)))
+    return Watch(stated, Vectorized(function), frozenset(compiled.dependence.inside(column)))
 
 
 @once

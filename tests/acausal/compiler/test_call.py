@@ -10,7 +10,7 @@ import pytest
 
 from acausal.compiler.call import Call
 from acausal.compiler.memo import latest, once
-from acausal.compiler.vectorized import AT_ONCE, PAYS, Rowwise
+from acausal.compiler.vectorized import AT_ONCE, PAYS, Vectorized
 from acausal.core import library
 
 X = ca.SX.sym("x", 2)
@@ -51,7 +51,7 @@ def test_rows_are_those_of_single_calls(n):
     rng = np.random.default_rng(n)
     xs, zs, ts = rng.random((n, 2)), rng.random((n, 3)), rng.random(n)
     cs, p0 = rng.random((n, 2)), rng.random(1)
-    found = Rowwise(function)(xs, zs, p0, ts[:, None], cs)
+    found = Vectorized(function)(xs, zs, p0, ts[:, None], cs)
     expected = [np.array(function(xs[k], zs[k], p0, ts[k], cs[k])).ravel() for k in range(n)]
     np.testing.assert_array_equal(found, expected)
 
@@ -85,7 +85,7 @@ def test_the_latest_of_each_model():
 
 def test_places_have_the_same_values_once_a_tape_pays():
     x, p = ca.SX.sym("x", 2), ca.SX.sym("p")
-    rowwise = Rowwise(ca.Function("f", [x, p], [ca.vertcat(ca.sin(x[0]) * p, x[1] / p)]))
+    rowwise = Vectorized(ca.Function("f", [x, p], [ca.vertcat(ca.sin(x[0]) * p, x[1] / p)]))
     xs, p0 = np.random.default_rng(0).standard_normal((PAYS // 2, 2)), np.array([0.7])
     first, second, third = (rowwise(xs, p0) for _ in range(3))
     np.testing.assert_array_equal(second, first)
