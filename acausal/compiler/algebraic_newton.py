@@ -12,7 +12,7 @@ from acausal.reduce import Level, solution_levels
 
 
 @dataclass(frozen=True)
-class Pass:
+class NewtonStep:
     """A Newton step for some algebraic unknowns, where all that it needs of the others is right.
 
     Parameters
@@ -30,9 +30,9 @@ class Pass:
     function: Vectorized
 
 
-def make_passes(
+def newton_steps(
     residuals: ca.SX, z: ca.SX, arguments: list[ca.SX], unknowns: np.ndarray, equations: np.ndarray
-) -> tuple[Pass, ...]:
+) -> tuple[NewtonStep, ...]:
     """Return the passes that solve equations for unknowns; `equations[i]` is matched with `unknowns[i]`.
 
     A part that is not linear in its unknowns is a pass of its own, and so are all that follow up to the next of them.
@@ -60,7 +60,7 @@ def _step(arguments: list[ca.SX], alg: ca.SX, J: ca.SX, level: Level, unknowns: 
     return ca.Function("step", given, [z])
 
 
-def _joined(arguments: list[ca.SX], steps: list[tuple[Level, ca.Function]], unknowns: np.ndarray) -> Pass:
+def _joined(arguments: list[ca.SX], steps: list[tuple[Level, ca.Function]], unknowns: np.ndarray) -> NewtonStep:
     """One pass of several steps."""
     x, z, *others = (ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments))
     found = z
@@ -68,4 +68,4 @@ def _joined(arguments: list[ca.SX], steps: list[tuple[Level, ca.Function]], unkn
         found = step(x, found, *others)
     chosen = np.sort(np.concatenate([unknowns[list(level.variables)] for level, _ in steps]))
     function = ca.Function("newton", [x, z, *others], [found[chosen.tolist()]])
-    return Pass(chosen, steps[0][0].linear, Vectorized(function))
+    return NewtonStep(chosen, steps[0][0].linear, Vectorized(function))

@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from acausal.compiler.algebraic_newton import Pass, make_passes
+from acausal.compiler.algebraic_newton import NewtonStep, newton_steps
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
 from acausal.compiler.constraint_jacobian import Constraints
@@ -154,10 +154,10 @@ class CompiledModel:
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
     @once
-    def passes(self, wanted: tuple[int, ...]) -> tuple[Pass, ...]:
+    def newton_steps(self, wanted: tuple[int, ...]) -> tuple[NewtonStep, ...]:
         """Newton steps that solve for algebraic unknowns and all that they need, one part after the other."""
         alg = self._shared[self.nx : self.nx + self.nz]
-        return make_passes(alg, self.reduced.z, self.arguments[:-1], *self.dependence.needed(wanted))
+        return newton_steps(alg, self.reduced.z, self.arguments[:-1], *self.dependence.needed(wanted))
 
     @property
     def dependence(self) -> Dependence:

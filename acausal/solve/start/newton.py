@@ -170,7 +170,7 @@ def _by_parts(problem: Problem, at: Point) -> Point | None:
     At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
     each of them alone. In one matrix that is d^4, which is less than rounding.
     """
-    for step in problem.compiled.passes(tuple(range(problem.nz))):
+    for step in problem.compiled.newton_steps(tuple(range(problem.nz))):
         for _ in range(1 if step.linear else NEWTON.iterations):
             z, own = at.z.copy(), step.unknowns
             z[own] = problem.each(step.function, Rows.of(at))[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.algebraic_newton import make_passes
+from acausal.compiler.algebraic_newton import newton_steps
 from acausal.reduce.dependence import Dependence
 
 x, z, p = ca.SX.sym("x"), ca.SX.sym("z", 5), ca.SX.sym("p")
@@ -23,7 +23,7 @@ def exact(X: float) -> np.ndarray:
 
 def test_parts_are_solved_one_after_the_other():
     unknowns, equations = Dependence(ALG, z).needed(range(5))
-    passes = make_passes(ALG, z, [ca.vertcat(x), z, p, t, c], unknowns, equations)
+    passes = newton_steps(ALG, z, [ca.vertcat(x), z, p, t, c], unknowns, equations)
     assert [step.linear for step in passes] in ([True, False, True], [False, True])
     assert sorted(k for step in passes for k in step.unknowns) == list(range(5))
     X = np.array([[2.0], [3.0]])
