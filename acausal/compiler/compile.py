@@ -14,7 +14,7 @@ from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.model_source import Source
 from acausal.compiler.parameters import Settable
 from acausal.compiler.structural_zeros import mend_of_zeros
-from acausal.compiler.time_conditions import split_clock
+from acausal.compiler.time_conditions import split_time_comparisons
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import flatten
 from acausal.garbage import uncollected
@@ -76,7 +76,7 @@ def compile(
             why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), mend])
         raise type(error)("\n".join(filter(None, (what, why)))) from None
     lap("analyse")
-    reduced = split_clock(reduce(flat, plan, linear))
+    reduced = split_time_comparisons(reduce(flat, plan, linear))
     lap("reduce")
     compiled = CompiledModel(
         reduced,

@@ -12,7 +12,7 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.compiler.rounding import terms
 from acausal.compiler.set_valued_laws import SetValuedLaws
-from acausal.compiler.time_conditions import by_clock, functions, planned_times, truth
+from acausal.compiler.time_conditions import functions, planned_times, time_comparisons, truth
 from acausal.compiler.vectorized import Vectorized
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
@@ -61,7 +61,7 @@ class Guards:
                     f"{guard.origin}: the condition holds a derivative that no equation has. Declare a variable for "
                     "it, such as a: Scalar = variable(...) with a == der(v), and compare that."
                 )
-        decided, bent, compared = by_clock(reduced, [g.condition for g in self.guards])
+        decided, bent, compared = time_comparisons(reduced, [g.condition for g in self.guards])
         self.timed, rows, row = list[int](), list[tuple[int, bool, Origin]](), 0
         self.bent = list[int]()
         self._open = list[tuple[int, int, bool]]()  # comparisons of watched guards: row, guard, inclusive

@@ -21,7 +21,7 @@ from acausal.reduce import ReducedModel
 from acausal.symbols import Distinct, scalars
 
 
-def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], list[bool], ca.SX]:
+def time_comparisons(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], list[bool], ca.SX]:
     """Return which comparisons hold time and parameters alone, which of these are curved, and their excesses, a column.
 
     The instants of the others are known from parameters, those of curved ones can be found reliably.
@@ -85,11 +85,11 @@ def truth(condition: Condition, parts: Iterator[ca.SX]) -> ca.SX:
     return a * b if condition.every else ca.fmax(a, b)
 
 
-def split_clock(reduced: ReducedModel) -> ReducedModel:
+def split_time_comparisons(reduced: ReducedModel) -> ReducedModel:
     """Return the model with a switch for every comparison with time in a condition that is not decided by time alone."""
     flat = reduced.flat
     joined = [guard for guard in flat.discontinuities.guards if isinstance(guard.condition, Joined)]
-    timed, _, excess = by_clock(reduced, [guard.condition for guard in joined])
+    timed, _, excess = time_comparisons(reduced, [guard.condition for guard in joined])
     known, switches, own = iter(zip(timed, scalars(excess), strict=True)), list[tuple[ca.SX, Guard]](), {}
     distinct = Distinct()
     for guard in joined:
