@@ -13,7 +13,7 @@ from acausal.compiler.argument_checks import model_of, values_of
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.model_source import Source
 from acausal.compiler.parameters import Settable
-from acausal.compiler.structural_zeros import mend_of_zeros
+from acausal.compiler.structural_zeros import remedy_for_zeros
 from acausal.compiler.time_conditions import split_time_comparisons
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import flatten
@@ -72,7 +72,7 @@ def compile(
         plan, linear = plan_of(flat)
     except (UnbalancedModelError, StructurallySingularError) as error:
         what, _, why = str(error).partition("\n")
-        if mend := mend_of_zeros(model, parameters, flat, error):
+        if mend := remedy_for_zeros(model, parameters, flat, error):
             why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), mend])
         raise type(error)("\n".join(filter(None, (what, why)))) from None
     lap("analyse")

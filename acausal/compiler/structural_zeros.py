@@ -35,7 +35,9 @@ class _Zero:
     mend: str
 
 
-def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: FlatModel, error: AcausalError) -> str:
+def remedy_for_zeros(
+    model: Component, parameters: Mapping[str, Any] | None, flat: FlatModel, error: AcausalError
+) -> str:
     """Return a line that names the parameters whose zeros leave a model incomplete, "" if they are not the cause.
 
     Parameters
