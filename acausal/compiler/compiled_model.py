@@ -16,7 +16,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
 from acausal.compiler.constraint_jacobian import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
-from acausal.compiler.event_conditions import Guards
+from acausal.compiler.event_conditions import EventConditions
 from acausal.compiler.linearization import PointLinearization
 from acausal.compiler.memo import once
 from acausal.compiler.model_source import Source, pickled
@@ -208,9 +208,9 @@ class CompiledModel:
         return Layout(*counts, int(moves), constraints.entries.shape[1])
 
     @cached_property
-    def guards(self) -> Guards:
+    def guards(self) -> EventConditions:
         """Conditions that are watched during the integration."""
-        return Guards(self.reduced, self.start.function)
+        return EventConditions(self.reduced, self.start.function)
 
     def integrator(
         self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool, sized: bool

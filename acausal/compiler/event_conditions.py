@@ -22,7 +22,7 @@ from acausal.reduce import ReducedModel
 from acausal.symbols import scalars, stacked
 
 
-class Guards:
+class EventConditions:
     """Guards of a model: those of its switches, then one for each `when`.
 
     Parameters

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.compiler.event_conditions import Guards
+from acausal.compiler.event_conditions import EventConditions
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.points import Point
@@ -39,7 +39,7 @@ class Agenda:
         Output times, and breaks.
     """
 
-    def __init__(self, guards: Guards, p: np.ndarray, times: np.ndarray) -> None:
+    def __init__(self, guards: EventConditions, p: np.ndarray, times: np.ndarray) -> None:
         self.guards, self.p, self.times = guards, p, times
         ends = float(times[0]), float(times[-1])
         self.near = part_of_time(POLICY.agenda.apart, *ends) * max(map(abs, ends))
