@@ -18,7 +18,7 @@ from acausal.compiler.constraint_jacobian import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.event_conditions import EventConditions
 from acausal.compiler.linearization import PointLinearization
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.compiler.model_source import Source, pickled
 from acausal.compiler.parameters import Settable
 from acausal.compiler.report import AtStart, report, summary
@@ -153,7 +153,7 @@ class CompiledModel:
         """Function of ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
-    @once
+    @memoized
     def newton_steps(self, wanted: tuple[int, ...]) -> tuple[NewtonStep, ...]:
         """Newton steps that solve for algebraic unknowns and all that they need, one part after the other."""
         alg = self._shared[self.nx : self.nx + self.nz]
@@ -275,7 +275,7 @@ class CompiledModel:
         """Function of parameters: what the integrated equations need of them."""
         return Call(ca.Function("hoist", [self.reduced.p], [ca.densify(self._hoisted[2])]))
 
-    @once
+    @memoized
     def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
         return make_dae(self.reduced, self._hoisted, quadratures, moves)
 

@@ -6,14 +6,14 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.compiler.set_valued_laws import MODE
 from acausal.core import Equations, Sampled, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
 from acausal.instructions import READABLE
 from acausal.language.functions import time
 
 
-@once
+@memoized
 def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equations:
     """Return the equations that are integrated.
 
@@ -35,7 +35,7 @@ def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equatio
     return make_equations(*arguments, ode, alg)
 
 
-@once
+@memoized
 def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
     """Return the laws of time alone that the equations hold, of x, z, time, p and constants; None if there are none.
 
@@ -49,7 +49,7 @@ def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
     return laws_of(core_equations(compiled, False, moves).values, 2, (3, 4))
 
 
-@once
+@memoized
 def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
     """Return the equations that determine algebraic unknowns and all that they need, of p, constants, x, z and time.
 
@@ -64,7 +64,7 @@ def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
     return make_square([r.p, r.constants, r.x, r.z, time.sx], 2, r.running.alg[equations.tolist()], 3, unknowns)
 
 
-@once
+@memoized
 def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
     """Return how watched excesses move, of p, constants, x, z, time and the rates of some algebraic unknowns.
 
@@ -85,7 +85,7 @@ def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
     return make_square(arguments, 2, inner @ rates + follows, 5, np.arange(rates.numel())), tape
 
 
-@once
+@memoized
 def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled | None:
     """Return the model as the core runs it over instants that discrete variables plan; None where it does not.
 

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler.call import Call
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.flatten.origin import Origin
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
@@ -69,7 +69,7 @@ class FullResiduals:
         return scipy.sparse.csc_matrix(entries, shape=pattern.shape)
 
 
-@once
+@memoized
 def full_residuals(compiled: Any) -> FullResiduals:
     """Make the functions of all rows of a compiled model."""
     r: ReducedModel = compiled.reduced

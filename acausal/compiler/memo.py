@@ -19,7 +19,7 @@ class Compiled(Protocol):
         ...
 
 
-def once(function: Callable[..., R]) -> Callable[..., R]:
+def memoized(function: Callable[..., R]) -> Callable[..., R]:
     """Evaluate a function of a compiled model, and of arguments that can be keys, once; its result follows from them alone.
 
     Parameters
@@ -32,9 +32,9 @@ def once(function: Callable[..., R]) -> Callable[..., R]:
     def call(compiled: Compiled, *key: Hashable) -> R:
         place = (function, *key)
         if place not in compiled.kept:
-            before, started = making(compiled), clock.perf_counter()
+            before, started = memo_seconds(compiled), clock.perf_counter()
             compiled.kept[place] = function(compiled, *key)
-            compiled.kept[making] = (
+            compiled.kept[memo_seconds] = (
                 before + clock.perf_counter() - started
             )  # what it made by others of its kind among it
         return compiled.kept[place]
@@ -42,12 +42,12 @@ def once(function: Callable[..., R]) -> Callable[..., R]:
     return call
 
 
-def making(compiled: Compiled) -> float:
+def memo_seconds(compiled: Compiled) -> float:
     """Return how many seconds went into results that are kept for good: they belong to compiling, whichever run needs them."""
-    return compiled.kept.get(making, 0.0)
+    return compiled.kept.get(memo_seconds, 0.0)
 
 
-def latest(calls: int) -> Callable[[Callable[..., R]], Callable[..., R]]:
+def memoized_latest(calls: int) -> Callable[[Callable[..., R]], Callable[..., R]]:
     """Evaluate a function of a compiled model again only where its other arguments are none of those of the last results.
 
     Parameters

@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.errors import caution
 from acausal.flatten.tree import walk
 from acausal.language.functions import time
@@ -47,7 +47,7 @@ def check_point(problem: Problem, at: Point, slopes_at: Callable[[Point], np.nda
         caution(_periodic_text(problem, turn, changing))
 
 
-@once
+@memoized
 def _depends(compiled: CompiledModel) -> tuple[bool, bool]:
     """Whether the equations of motion depend on time, and whether they are linear with constant coefficients: at any point."""
     running, unknowns = compiled.reduced.running, ca.vertcat(compiled.reduced.x, compiled.reduced.z)

@@ -12,7 +12,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_motion, core_square
 from acausal.compiler.full_residuals import full_residuals
 from acausal.compiler.linearization import PointLinearization, with_entries
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.compiler.vectorized import Vectorized
 from acausal.core import Settler, library
 from acausal.policy import POLICY
@@ -232,7 +232,7 @@ class Problem:
         return Point(float(rows.times[k]), rows.x[k], rows.z[k], constants)
 
 
-@once
+@memoized
 def rates_of(compiled: CompiledModel) -> list[tuple[int, int]]:
     """Return pairs (coordinate, rate) among the states."""
     plan = compiled.reduced.plan

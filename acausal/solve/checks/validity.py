@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.compiler.requirements import Stated, refuse, statements
 from acausal.compiler.vectorized import Vectorized
 from acausal.errors import InitializationError
@@ -50,25 +50,25 @@ def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> W
     return Watch(stated, Vectorized(function), frozenset(compiled.dependence.inside(column)))
 
 
-@once
+@memoized
 def _validity(compiled: CompiledModel) -> list[Stated]:
     return statements(compiled.tree, "validity", (Expectation, Separation))
 
 
-@once
+@memoized
 def separations(compiled: CompiledModel) -> Watch:
     """What must not meet in a run: rate, effect and offset of each, in turn."""
     stated = [item for item in _validity(compiled) if isinstance(item[0], Separation)]
     return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)])
 
 
-@once
+@memoized
 def _expectations(compiled: CompiledModel) -> Watch:
     stated = [item for item in _validity(compiled) if isinstance(item[0], Expectation)]
     return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.part, s.whole)])
 
 
-@once
+@memoized
 def _at_start(compiled: CompiledModel) -> Watch:
     stated = compiled.requirements.at_start
     return watch(compiled, stated, [r.sx for r, _ in stated])

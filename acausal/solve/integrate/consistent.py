@@ -13,7 +13,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.algebraic_newton import NewtonStep
 from acausal.compiler.core_equations import core_square
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.core import Settler, Square, library
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
@@ -65,14 +65,14 @@ class _Needed:
         return found
 
 
-@once
+@memoized
 def _needed(compiled: CompiledModel, wanted: frozenset[int] | None) -> _Needed:
     """Return what has to be solved for to know some unknowns, all if not given."""
     unknowns, _ = compiled.dependence.needed(range(compiled.nz) if wanted is None else wanted)
     return _solved(compiled, tuple(unknowns.tolist()))
 
 
-@once
+@memoized
 def _solved(compiled: CompiledModel, key: tuple[int, ...]) -> _Needed:
     unknowns, equations = compiled.dependence.needed(key)
     part = part_of(compiled.pattern, compiled.nx + equations, compiled.nx + unknowns)

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.linearization import PointLinearization
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 
@@ -21,7 +21,7 @@ def with_direct(problem: Problem, direct: np.ndarray, at: Point, local: PointLin
     return replace(at, x=x)
 
 
-@once
+@memoized
 def _last_entries(compiled: CompiledModel) -> np.ndarray:
     """Place of the last entry of each row of the Jacobian; of the only one in the rows of conditions that give a state."""
     J = compiled.pattern

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.linearization import PointLinearization
-from acausal.compiler.memo import latest
+from acausal.compiler.memo import memoized_latest
 from acausal.compiler.report import AtStart
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
@@ -225,7 +225,7 @@ def _system(problem: Problem, local: PointLinearization, initial: str) -> Initia
     return _chosen(problem.compiled, initial, order.tobytes())
 
 
-@latest(1)
+@memoized_latest(1)
 def _chosen(compiled: CompiledModel, initial: str, order: bytes) -> InitialSystem:
     """Choose conditions; `order` is that of the entries of the Jacobian, row by row."""
     nx, nz = compiled.nx, compiled.nz

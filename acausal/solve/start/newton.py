@@ -11,7 +11,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.linearization import PointLinearization
-from acausal.compiler.memo import once
+from acausal.compiler.memo import memoized
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, part_of
@@ -183,7 +183,7 @@ def _by_parts(problem: Problem, at: Point) -> Point | None:
     return at if np.all(solved) else None
 
 
-@once
+@memoized
 def _algebraic(compiled: CompiledModel) -> InitialSystem:
     return InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(compiled.nx))
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from acausal.compiler.call import Call
-from acausal.compiler.memo import latest, once
+from acausal.compiler.memo import memoized, memoized_latest
 from acausal.compiler.vectorized import AT_ONCE, PAYS, Vectorized
 from acausal.core import library
 
@@ -59,7 +59,7 @@ def test_rows_are_those_of_single_calls(n):
 def test_once_for_each_model_and_argument():
     counted = []
 
-    @once
+    @memoized
     def twice(model, number):
         counted.append((model.name, number))
         return 2 * number
@@ -72,7 +72,7 @@ def test_once_for_each_model_and_argument():
 def test_the_latest_of_each_model():
     counted = []
 
-    @latest(2)
+    @memoized_latest(2)
     def twice(model, number):
         counted.append((model.name, number))
         return 2 * number
