@@ -9,11 +9,11 @@ import casadi as ca
 import numpy as np
 
 from acausal.result.lookup import Quantity
-from acausal.result.snapshot import Kept
+from acausal.result.snapshot import Snapshot
 
 
 def read(
-    quantities: list[Quantity], evaluate: Callable[[Any], np.ndarray], kept: Kept | None, times: int
+    quantities: list[Quantity], evaluate: Callable[[Any], np.ndarray], snapshot: Snapshot | None, times: int
 ) -> dict[Quantity, np.ndarray]:
     """Return the arrays of quantities, shape (times, *shape) each, read-only.
 
@@ -23,7 +23,7 @@ def read(
         Expressions of the model, or places in what was kept.
     evaluate : callable
         As of a result, for the expressions.
-    kept : Kept, optional
+    snapshot : Snapshot, optional
         What the places are of.
     times : int
         Number of times.
@@ -34,8 +34,8 @@ def read(
         ends = np.cumsum([q.size for q in some], dtype=int)
         if not some or not ends[-1]:
             values = np.empty((times, 0))
-        elif kept is not None and places:
-            values = kept.evaluate(np.concatenate([q.column for q in some]))
+        elif snapshot is not None and places:
+            values = snapshot.evaluate(np.concatenate([q.column for q in some]))
         else:
             values = np.asarray(evaluate(ca.vertcat(*(q.column for q in some))))
         for q, block in zip(some, np.split(values, ends[:-1], axis=1), strict=False):

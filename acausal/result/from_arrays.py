@@ -10,7 +10,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language.quantities import refused
 from acausal.result.lookup import Quantity
-from acausal.result.snapshot import Kept
+from acausal.result.snapshot import Snapshot
 from acausal.units import parse as unit_of
 
 # Of a result: its values by path, as columns of shape (times, n), in column-major order.
@@ -82,7 +82,7 @@ def checked_columns(
     return found
 
 
-def kept_of(columns: Columns, times: int, title: str = "") -> Kept:
+def snapshot_of(columns: Columns, times: int, title: str = "") -> Snapshot:
     """Return arrays as what is kept of a result.
 
     Parameters
@@ -100,7 +100,7 @@ def kept_of(columns: Columns, times: int, title: str = "") -> Kept:
         quantities[path] = Quantity(path, places, quantity.shape, quantity.units)
         blocks.append(block)
         first += block.shape[1]
-    return Kept(title or "Result", quantities, {}, np.hstack(blocks), np.empty(0))
+    return Snapshot(title or "Result", quantities, {}, np.hstack(blocks), np.empty(0))
 
 
 def checked_outputs(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:

@@ -250,7 +250,7 @@ def check_columns(tree: Tree, keys: Iterable[Key]) -> None:
 
     Parameters
     ----------
-    tree : Component or Kept
+    tree : Component or Snapshot
         As of a result.
     keys : iterable of str, Path or Expr
         The other columns.

@@ -18,7 +18,7 @@ from acausal.result.evaluation import read
 from acausal.result.invalid_values import no_numbers
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
 from acausal.result.plots import Series, draw, opened, save
-from acausal.result.snapshot import Kept, keep
+from acausal.result.snapshot import Snapshot, take_snapshot
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
 
@@ -38,7 +38,7 @@ class Result:
         In s, read-only as all arrays of a result.
     evaluate : callable
         From a column of n expressions in the model's symbols to an array of shape (times, n).
-    tree : Component or Kept
+    tree : Component or Snapshot
         The bound model, whose attributes hold the symbols; or what was kept of it.
     outputs : tuple of str
         Names of the model's outputs, the columns of its table.
@@ -46,7 +46,7 @@ class Result:
         Sizes, counts and seconds of the run.
     title : str
         Title of plots.
-    more : Kept, optional
+    more : Snapshot, optional
         What can be read beside the quantities of the model.
 
     Examples
@@ -64,7 +64,7 @@ class Result:
         outputs: tuple[str, ...],
         stats: Mapping[str, Any],
         title: str = "",
-        more: Kept | None = None,
+        more: Snapshot | None = None,
     ) -> None:
         self.time = np.array(time, dtype=float)
         self.time.setflags(write=False)  # as all arrays of a result: they are kept
@@ -94,15 +94,15 @@ class Result:
 
     @property
     def _model(self) -> str:
-        return self.tree.model if isinstance(self.tree, Kept) else type(self.tree).__name__
+        return self.tree.model if isinstance(self.tree, Snapshot) else type(self.tree).__name__
 
     @alone
     def __reduce__(self) -> tuple[Any, ...]:
         """Keep the values of all quantities, and nothing of the model."""
         live = isinstance(self.tree, Component)
-        kept = keep(self.tree, self._evaluate, self.time.size) if live else self.tree
-        kept = kept.joined(self._more) if self._more else kept
-        return _loaded, (self.time, kept, self.outputs, self.stats, self.title)
+        snapshot = take_snapshot(self.tree, self._evaluate, self.time.size) if live else self.tree
+        snapshot = snapshot.joined(self._more) if self._more else snapshot
+        return _loaded, (self.time, snapshot, self.outputs, self.stats, self.title)
 
     def __copy__(self) -> Result:
         return Result(self.time, self._evaluate, self.tree, self.outputs, self.stats, self.title, self._more)
@@ -291,10 +291,10 @@ class Result:
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
         """Return the arrays of quantities, computing those that are new in one call."""
         new = [q for q in quantities if not (q.declared and q.name in self._arrays)]
-        arrays = read(new, self._evaluate, self.tree if isinstance(self.tree, Kept) else self._more, self.time.size)
+        arrays = read(new, self._evaluate, self.tree if isinstance(self.tree, Snapshot) else self._more, self.time.size)
         self._arrays |= {q.name: array for q, array in arrays.items() if q.declared}
         return [arrays[q] if q in arrays else self._arrays[q.name] for q in quantities]
 
 
-def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:
-    return Result(time, kept.evaluate, kept, outputs, stats, title)
+def _loaded(time: np.ndarray, snapshot: Snapshot, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:
+    return Result(time, snapshot.evaluate, snapshot, outputs, stats, title)

@@ -22,7 +22,7 @@ AT_ONCE = 2000
 
 
 @dataclass
-class Kept:
+class Snapshot:
     """Every quantity of a run, in place of a bound model.
 
     Parameters
@@ -62,12 +62,12 @@ class Kept:
             or path.rpartition("[")[0] in self.quantities
         )
 
-    def joined(self, other: Kept) -> Kept:
+    def joined(self, other: Snapshot) -> Snapshot:
         """Return these quantities and others of the same run, by other names.
 
         Parameters
         ----------
-        other : Kept
+        other : Snapshot
             Of as many times.
         """
         width, more, before = self.values.shape[1], other.values.shape[1], len(self.constants)
@@ -81,7 +81,7 @@ class Kept:
                 quantities[name] = replace(q, column=shifted)
         values = np.hstack([self.values, other.values])
         constants = np.concatenate([self.constants, other.constants])
-        return Kept(self.model, quantities, self.refused | other.refused, values, constants)
+        return Snapshot(self.model, quantities, self.refused | other.refused, values, constants)
 
     def evaluate(self, places: np.ndarray) -> np.ndarray:
         """Return the values at some places, shape (times, places)."""
@@ -157,7 +157,7 @@ class Kept:
         return f"{path}[{choose(known or None, path, indices)}]"
 
 
-def keep(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], times: int) -> Kept:
+def take_snapshot(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], times: int) -> Snapshot:
     """Compute all quantities of a run.
 
     Parameters
@@ -193,7 +193,7 @@ def keep(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], times: int) -
         kept[q.name] = Quantity(q.name, numbers[first : first + q.size], q.shape, q.units)
         first += q.size
     table = np.column_stack(varying) if varying else np.empty((times, 0))
-    return Kept(type(tree).__name__, kept, refused, table, np.array(constants))
+    return Snapshot(type(tree).__name__, kept, refused, table, np.array(constants))
 
 
 def _all(tree: Component) -> tuple[list[Quantity], dict[str, str]]:

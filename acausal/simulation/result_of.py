@@ -13,7 +13,7 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
-from acausal.result.from_arrays import checked_columns, checked_outputs, checked_times, kept_of
+from acausal.result.from_arrays import checked_columns, checked_outputs, checked_times, snapshot_of
 from acausal.result.lookup import find, names
 from acausal.solve.given import evaluator_of
 from acausal.units import parse
@@ -79,9 +79,11 @@ def result_of(
         columns = checked_columns(times, values)
         if parameters:
             raise DeclarationError("parameters= are those of a model: give it by model=")
-        kept = kept_of(columns, times.size, title)
-        shown = checked_outputs(outputs, kept.names) or tuple(n for n, q in kept.quantities.items() if not q.shape)
-        return Result(times, kept.evaluate, kept, shown, stats, title)
+        snapshot = snapshot_of(columns, times.size, title)
+        shown = checked_outputs(outputs, snapshot.names) or tuple(
+            n for n, q in snapshot.quantities.items() if not q.shape
+        )
+        return Result(times, snapshot.evaluate, snapshot, shown, stats, title)
     compiled, p = ready(model_of(model, compiled=True), parameters)
     known = set(names(compiled.tree))
     columns = checked_columns(times, values, known)
@@ -91,7 +93,7 @@ def result_of(
     with np.errstate(all="ignore"):
         evaluate = evaluator_of(compiled, p, times, own)
     counts = {"equations_reduced": compiled.nx + compiled.nz, "states": compiled.nx, "algebraic": compiled.nz}
-    more = kept_of(beside, times.size) if beside else None
+    more = snapshot_of(beside, times.size) if beside else None
     return Result(times, evaluate, compiled.tree, shown, counts | stats, title or type(compiled.tree).__name__, more)
 
 
