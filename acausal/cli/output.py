@@ -89,9 +89,9 @@ class Files:
     def check(self, tree: Tree) -> None:
         """Refuse a moving picture of a model that shows nothing, or of values that it does not have."""
         if self.animate is not None:
-            from acausal.result.animated import Asked, check_visible
+            from acausal.result.animated import AnimationOptions, check_visible
 
-            Asked(values=self.values, deformation=self.deformation).check()
+            AnimationOptions(values=self.values, deformation=self.deformation).check()
             check_visible(tree, self.values)
 
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:

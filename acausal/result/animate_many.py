@@ -10,7 +10,7 @@ from acausal.errors import DeclarationError
 from acausal.language.arguments import fitting
 from acausal.language.values import shown
 from acausal.locks import alone
-from acausal.result.animated import Asked, write
+from acausal.result.animated import AnimationOptions, write
 from acausal.result.lookup import Key
 from acausal.result.result import Result
 
@@ -66,5 +66,7 @@ def animate(
             f'results are given by the names that are shown, {{"rigid": a, "elastic": b}}, not by {shown(results)}.'
         )
     write(
-        {str(name): result for name, result in results.items()}, path, Asked(frames, plots, values, title, deformation)
+        {str(name): result for name, result in results.items()},
+        path,
+        AnimationOptions(frames, plots, values, title, deformation),
     )

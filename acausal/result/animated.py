@@ -26,7 +26,7 @@ EXAGGERATED = 1000  # times a deformation, at most
 ENDINGS = (*PAGES, ".gif", ".png")
 
 
-class Moving(Protocol):
+class Animatable(Protocol):
     """What is needed of a result."""
 
     time: np.ndarray
@@ -42,7 +42,7 @@ class Moving(Protocol):
 
 
 @dataclass(frozen=True)
-class Asked:
+class AnimationOptions:
     """What a user asks for: the arguments of `Result.animate`."""
 
     frames: int = FRAMES
@@ -66,22 +66,22 @@ class Asked:
             raise DeclarationError(f"title is a text, not {code(self.title)}.")
 
 
-DEFAULT = Asked()
+DEFAULT = AnimationOptions()
 
 
-def write(results: Mapping[str, Moving], path: str | Path, asked: Asked) -> None:
+def write(results: Mapping[str, Animatable], path: str | Path, options: AnimationOptions) -> None:
     """Write a moving picture of results by their names; errors are those of `Result.animate`."""
     check_animation(path)
-    asked.check()
-    title = asked.title
-    found = scenes({name: run_of(result, asked) for name, result in results.items()}, asked.values)
+    options.check()
+    title = options.title
+    found = scenes({name: run_of(result, options) for name, result in results.items()}, options.values)
     if _ending(path) in PAGES:
         with whole(path) as file:
-            file.write(html(written(found, asked.values, title, asked.deformation)))
+            file.write(html(written(found, options.values, title, options.deformation)))
         return
     from acausal.result.films import film, still
 
-    data = (film if _ending(path) == ".gif" else still)(found, title, asked.values, asked.deformation)
+    data = (film if _ending(path) == ".gif" else still)(found, title, options.values, options.deformation)
     with whole(path, "wb") as file:
         file.write(data)
 
@@ -116,7 +116,7 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
         shown([tree], values)
 
 
-def in_notebook(result: Moving) -> str | None:
+def in_notebook(result: Animatable) -> str | None:
     """Return the page of a result as a frame of a notebook, which runs its scripts and nothing else.
 
     Parameters
@@ -134,7 +134,7 @@ def in_notebook(result: Moving) -> str | None:
     )
 
 
-def run_of(result: Moving, asked: Asked = DEFAULT) -> Run:
+def run_of(result: Animatable, options: AnimationOptions = DEFAULT) -> Run:
     """Return what is shown of a result: about so many frames of it at most, and its outputs or other scalars.
 
     Raises
@@ -150,14 +150,14 @@ def run_of(result: Moving, asked: Asked = DEFAULT) -> Run:
         )
     if not result.time.size:
         raise DeclarationError(f"{result!r} is empty: there is no time at which something could be seen.")
-    places = thinned(result.time, asked.frames)
-    quantities = [find(tree, key) for key in asked.plots or result.outputs]
+    places = thinned(result.time, options.frames)
+    quantities = [find(tree, key) for key in options.plots or result.outputs]
     plots = [Plot(name, unit, q[index].column) for q in quantities for index, name, unit in q.entries]
     title, stopped = result.title or type(tree).__name__, result.stats.get("stopped")
     return Run(tree, result.time[places], _at(result, places), plots, title, stopped)
 
 
-def _at(result: Moving, places: np.ndarray) -> Any:
+def _at(result: Animatable, places: np.ndarray) -> Any:
     """Return a function that evaluates expressions at some of the times only, where that is possible."""
     evaluate = result._evaluate
     if len(places) == result.time.size:

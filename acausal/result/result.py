@@ -262,9 +262,9 @@ class Result:
         DeclarationError
             If the result has no time, no model any more, nothing to be seen, or no such values.
         """
-        from acausal.result.animated import Asked, write
+        from acausal.result.animated import AnimationOptions, write
 
-        write({self.title or self._model: self}, path, Asked(frames, plots, values, title, deformation))
+        write({self.title or self._model: self}, path, AnimationOptions(frames, plots, values, title, deformation))
 
     @alone
     def _repr_html_(self) -> str | None:

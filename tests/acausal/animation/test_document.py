@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 import acausal as ac
 from acausal import Component, Model, Scalar, chain, fixed, geometry, output, parameter, sqrt, variable
 from acausal.animation.document import document
-from acausal.result.animated import Asked, run_of
+from acausal.result.animated import AnimationOptions, run_of
 from components import Body, FlexibleBeam, Revolute, World
 from components.frame import Frame, TwoFrames, pose
 from models import SCENES
@@ -25,7 +25,7 @@ from tests.shared import compiled
 
 def made(result: Any, values: tuple[str, ...] = (), **asked: Any) -> dict[str, Any]:
     """Return a run of a document as a page would read it: through JSON without NaN."""
-    found = document({"run": run_of(result, Asked(**asked))}, values)
+    found = document({"run": run_of(result, AnimationOptions(**asked))}, values)
     return json.loads(json.dumps(found, allow_nan=False))["runs"][0]
 
 
