@@ -9,7 +9,7 @@ import numpy as np
 from acausal.result.lookup import Quantity
 
 
-def no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray, why: Callable[[int], str] | None) -> str:
+def invalid_values(quantity: Quantity, array: np.ndarray, time: np.ndarray, why: Callable[[int], str] | None) -> str:
     """Describe where a quantity stops being a number, and why.
 
     Parameters

@@ -18,7 +18,7 @@ from acausal.language.component import Component, Path
 from acausal.language.expression import Equation, Expr
 from acausal.language.functions import time
 from acausal.language.values import shown, shown_or_kind
-from acausal.result.unknown_path import unknown
+from acausal.result.unknown_path import unknown_path
 from acausal.symbols import vec
 
 Key = str | Path | Expr
@@ -118,7 +118,7 @@ def match(tree: Tree, patterns: Iterable[str]) -> list[str]:
     known, found = names(tree), {}
     for pattern in patterns:
         if not isinstance(pattern, str):
-            raise DeclarationError(no_path(pattern))
+            raise DeclarationError(invalid_key(pattern))
         # Brackets in names are indices: fnmatch's sets of characters would only be in the way.
         matched = [name for name in known if fnmatchcase(name, pattern.replace("[", "[[]"))]
         if not matched and ("*" in pattern or "?" in pattern):
@@ -140,11 +140,11 @@ def find(tree: Tree, key: Key) -> Quantity:
     if isinstance(key, Expr):
         return _of_expression(tree, key)
     if not isinstance(key, str | Path):
-        raise DeclarationError(no_path(key))
+        raise DeclarationError(invalid_key(key))
     try:
         return _walk(tree, str(key))
     except LookupError:
-        raise DeclarationError(unknown(str(key), names(tree), tree)) from None
+        raise DeclarationError(unknown_path(str(key), names(tree), tree)) from None
 
 
 def _of_expression(tree: Component, expr: Expr) -> Quantity:
@@ -284,7 +284,7 @@ def _example(parts: list[Component]) -> str:
     return inside[0].removeprefix(f"{parts[0]._path}.") if inside else "..."
 
 
-def no_path(key: object) -> str:
+def invalid_key(key: object) -> str:
     """Return the message for what is no path."""
     text = shown(key)
     for kind, word in ((f.Field, "a field of the class"), (Equation, "an equation")):

@@ -15,7 +15,7 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result.evaluation import read
-from acausal.result.invalid_values import no_numbers
+from acausal.result.invalid_values import invalid_values
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
 from acausal.result.plots import Series, draw, opened, save
 from acausal.result.snapshot import Snapshot, take_snapshot
@@ -285,7 +285,7 @@ class Result:
             if quantity.name not in self._told and not np.isfinite(array).all():
                 self._told.add(quantity.name)
                 why = getattr(self._evaluate, "why", None) if quantity.declared else None
-                caution(no_numbers(quantity, array, self.time, why))
+                caution(invalid_values(quantity, array, self.time, why))
         return found
 
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:

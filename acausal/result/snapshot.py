@@ -14,8 +14,8 @@ from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Expr
-from acausal.result.lookup import Key, Quantity, choose, find, names, no_path, not_readable, parse
-from acausal.result.unknown_path import unknown
+from acausal.result.lookup import Key, Quantity, choose, find, invalid_key, names, not_readable, parse
+from acausal.result.unknown_path import unknown_path
 
 # Entries whose values are computed at once.
 AT_ONCE = 2000
@@ -107,11 +107,11 @@ class Snapshot:
                 f"name and compute with the arrays, as in {mend}; or simulate again."
             )
         if not isinstance(key, str | Path):
-            raise DeclarationError(no_path(key))
+            raise DeclarationError(invalid_key(key))
         try:
             return self._walk(str(key))
         except LookupError:
-            raise DeclarationError(unknown(str(key), self.names, kind=self._kind(str(key)))) from None
+            raise DeclarationError(unknown_path(str(key), self.names, kind=self._kind(str(key)))) from None
 
     def _kind(self, path: str) -> str:
         told = re.search(r" is a part \((\w+)\)", self.refused.get(path.rpartition(".")[0], ""))

@@ -16,7 +16,7 @@ MOST = 10_000  # statements of one component that are read
 LISTED = 8  # names that are listed
 
 
-def unknown(path: str, known: list[str], tree: Component | None = None, kind: str = "") -> str:
+def unknown_path(path: str, known: list[str], tree: Component | None = None, kind: str = "") -> str:
     """Return the message for a path that does not exist.
 
     Parameters
