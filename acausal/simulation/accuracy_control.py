@@ -17,7 +17,7 @@ from acausal.errors import SimulationError
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.estimate import Estimate, estimate
-from acausal.simulation.run_cache import Numerics, Runs
+from acausal.simulation.run_cache import Numerics, RunCache
 from acausal.solve.integrate.methods import chosen
 
 ACCURACY = POLICY.accuracy
@@ -32,14 +32,14 @@ class State:
     estimate: Estimate
 
 
-def reach(accuracy: float, runs: Runs) -> Result:
+def reach(accuracy: float, runs: RunCache) -> Result:
     """Return a run whose estimated errors are at most `accuracy`.
 
     Parameters
     ----------
     accuracy : float
         Largest error of each output as a fraction of its range.
-    runs : Runs
+    runs : RunCache
         Runs of the model.
 
     Raises
@@ -66,11 +66,11 @@ class Search:
     ----------
     accuracy : float
         Largest error of each output as a fraction of its range.
-    runs : Runs
+    runs : RunCache
         Runs of the model.
     """
 
-    def __init__(self, accuracy: float, runs: Runs) -> None:
+    def __init__(self, accuracy: float, runs: RunCache) -> None:
         self.accuracy, self.runs = accuracy, runs
         exponent = np.floor(np.log10(ACCURACY.first * accuracy) + 1e-9)
         self.first = float(np.clip(_tenth(10.0**exponent, 0), 10 * ACCURACY.smallest, ACCURACY.loosest))

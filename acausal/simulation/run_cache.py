@@ -31,7 +31,7 @@ class Numerics:
     max_order: int | None
 
 
-class Runs:
+class RunCache:
     """Runs of a model.
 
     Parameters

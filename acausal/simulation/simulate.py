@@ -12,7 +12,7 @@ from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
 from acausal.simulation.accuracy_control import reach
-from acausal.simulation.run_cache import Runs
+from acausal.simulation.run_cache import RunCache
 from acausal.simulation.settings_checks import planned
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
@@ -117,7 +117,7 @@ def _simulate(
     model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task, accuracy: float | None
 ) -> Result:
     if accuracy is not None:
-        return reach(accuracy, Runs(model, parameters, task))
+        return reach(accuracy, RunCache(model, parameters, task))
     return run(*ready(model, parameters), task)
 
 
