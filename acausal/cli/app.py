@@ -30,9 +30,9 @@ from acausal.cli.streams import ended, tell, tolerant
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
-from acausal.simulation.model_settings import settled
+from acausal.simulation.model_settings import effective_settings
 from acausal.simulation.run_cache import adaptive
-from acausal.simulation.settings_checks import check_choice, planned
+from acausal.simulation.settings_checks import check_choice, checked_task
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
@@ -145,7 +145,7 @@ def simulate(
         }
         with blaming(cls):
             how["stop_time"] = stop_time_of(model, given, stop_time)
-            planned(model, given, how)
+            checked_task(model, given, how)
             compiled = ac.compile(model, parameters=given)
         # Wrong names are refused before any work.
         chosen = match(compiled.tree, variables or ())
@@ -153,7 +153,7 @@ def simulate(
             files.check(compiled.tree)
         if csv is not None:
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
-        chosen_by = settled(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
+        chosen_by = effective_settings(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
         again = chosen_by is not None and bool(adaptive(compiled.tree))
         options = {**how, "parameters": given if again else None, "energy": True}
         with blaming(cls):

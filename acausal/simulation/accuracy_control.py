@@ -32,7 +32,7 @@ class State:
     estimate: Estimate
 
 
-def reach(accuracy: float, runs: RunCache) -> Result:
+def simulate_to_accuracy(accuracy: float, runs: RunCache) -> Result:
     """Return a run whose estimated errors are at most `accuracy`.
 
     Parameters

@@ -19,7 +19,7 @@ from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
-from acausal.simulation.model_settings import check_number, settled
+from acausal.simulation.model_settings import check_number, effective_settings
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.opening import opening
 from acausal.solve.points import Point
@@ -126,7 +126,7 @@ def linearize(
 
     Discrete variables keep their values: a sampled controller does not act.
     """
-    how = settled(model, parameters, {"initial": initial})["initial"]
+    how = effective_settings(model, parameters, {"initial": initial})["initial"]
     check_number("time", time)
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)

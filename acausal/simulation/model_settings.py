@@ -30,7 +30,7 @@ DEFAULTS = {
 COUNTS = ("intervals", "max_order")
 
 
-def settled(
+def effective_settings(
     model: Component | CompiledModel, values: Mapping[str, Any] | None, given: Mapping[str, Any]
 ) -> dict[str, Any]:
     """Return settings of a simulation: those that are given, otherwise those of the model, otherwise the defaults.

@@ -12,7 +12,7 @@ from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.policy import POLICY
-from acausal.simulation.model_settings import check_number, settled
+from acausal.simulation.model_settings import check_number, effective_settings
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task
 from acausal.solve.start.initialize import INITIAL
@@ -23,7 +23,7 @@ CHOOSE = {"method": CHOICES, "constraints": CONSTRAINTS, "initial": INITIAL}
 MOST = 100_000_000  # points of a run
 
 
-def planned(
+def checked_task(
     model: Component | CompiledModel,
     parameters: Mapping[str, Any] | None,
     given: Mapping[str, Any],
@@ -44,7 +44,7 @@ def planned(
     start_time, energy, progress
         As of `simulate`.
     """
-    how = settled(model, parameters, given)
+    how = effective_settings(model, parameters, given)
     if how["stop_time"] is None:
         raise DeclarationError(
             "the model declares no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."

@@ -11,9 +11,9 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
-from acausal.simulation.accuracy_control import reach
+from acausal.simulation.accuracy_control import simulate_to_accuracy
 from acausal.simulation.run_cache import RunCache
-from acausal.simulation.settings_checks import planned
+from acausal.simulation.settings_checks import checked_task
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
 
@@ -101,7 +101,7 @@ def simulate(
         "constraints": constraints,
         "max_order": max_order,
     }
-    task, accuracy = planned(model, parameters, given, start_time=start_time, energy=energy, progress=progress)
+    task, accuracy = checked_task(model, parameters, given, start_time=start_time, energy=energy, progress=progress)
     try:
         result = _simulate(model, parameters, task, accuracy)
     except SimulationError as failure:
@@ -117,7 +117,7 @@ def _simulate(
     model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task, accuracy: float | None
 ) -> Result:
     if accuracy is not None:
-        return reach(accuracy, RunCache(model, parameters, task))
+        return simulate_to_accuracy(accuracy, RunCache(model, parameters, task))
     return run(*ready(model, parameters), task)
 
 

@@ -10,7 +10,7 @@ import acausal as ac
 from acausal import DeclarationError, Model, Scalar, der, output, parameter, piecewise, structural
 from acausal.cli.app import app
 from acausal.simulation.model_settings import DEFAULTS
-from acausal.simulation.settings_checks import planned
+from acausal.simulation.settings_checks import checked_task
 
 
 class Decay(Model):
@@ -264,6 +264,6 @@ def test_command_line_with_parameters(tmp_path):
 
 def test_numbers_of_numpy_are_settings():
     given = {"stop_time": np.float64(0.5), "tolerance": np.float64(1e-4), "intervals": np.int64(4)}
-    task = planned(ac.compile(Decay()), None, dict.fromkeys(DEFAULTS) | given)[0]
+    task = checked_task(ac.compile(Decay()), None, dict.fromkeys(DEFAULTS) | given)[0]
     assert [type(number) for number in (task.start_time, task.stop_time, task.tolerance)] == [float] * 3
     assert told(Decay(), **given)[:3] == (0.5, 5, 1e-4)
