@@ -13,7 +13,7 @@ from acausal.language.path import Path
 from acausal.language.values import shown_or_kind
 
 
-def model_of(given: Any, compiled: bool = False) -> Any:
+def checked_model(given: Any, compiled: bool = False) -> Any:
     """Return a whole model as it is given.
 
     Parameters
@@ -56,7 +56,7 @@ def model_of(given: Any, compiled: bool = False) -> Any:
     raise DeclarationError(f"a model is an instance such as SpinUp(), not {shown_or_kind(given)}.")
 
 
-def values_of(given: Any) -> dict[str, Any]:
+def checked_values(given: Any) -> dict[str, Any]:
     """Return values by path.
 
     Parameters

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler.argument_checks import model_of, values_of
+from acausal.compiler.argument_checks import checked_model, checked_values
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.model_source import Source
 from acausal.compiler.parameters import Settable
@@ -62,7 +62,7 @@ def compile(
         seconds[stage] = now - started
         started = now
 
-    model, parameters = model_of(model), values_of(parameters)
+    model, parameters = checked_model(model), checked_values(parameters)
     free = (free,) if isinstance(free, str) else tuple(free)
     flat = flatten(model, parameters, free)
     settable = Settable(flat)
@@ -103,6 +103,6 @@ def ready(
 ) -> tuple[CompiledModel, np.ndarray]:
     """Compile a model that is not compiled yet; return it with the values of its free parameters after some changes."""
     if isinstance(model, CompiledModel):
-        return model, model.settable.values(values_of(parameters))
+        return model, model.settable.values(checked_values(parameters))
     compiled = compile(model, parameters)
     return compiled, compiled.settable.values(None)

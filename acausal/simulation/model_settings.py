@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler import CompiledModel, model_of, values_of
+from acausal.compiler import CompiledModel, checked_model, checked_values
 from acausal.compiler.call import Call
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
@@ -123,7 +123,7 @@ def declared_settings(compiled: CompiledModel) -> dict[str, Any]:
 
 def _declared(model: Component | CompiledModel, values: Mapping[str, Any] | None) -> Callable[[str], Any]:
     """Return what gives the settings that a model declares, with values by path that replace its own."""
-    model, values = model_of(model, compiled=True), values_of(values)
+    model, values = checked_model(model, compiled=True), checked_values(values)
     if not isinstance(model, CompiledModel):
         return lambda name: own_setting(model, name, values)
     if model.source is None:

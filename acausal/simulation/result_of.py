@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler import CompiledModel, model_of, ready
+from acausal.compiler import CompiledModel, checked_model, ready
 from acausal.errors import DeclarationError
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
@@ -84,7 +84,7 @@ def result_of(
             n for n, q in snapshot.quantities.items() if not q.shape
         )
         return Result(times, snapshot.evaluate, snapshot, shown, stats, title)
-    compiled, p = ready(model_of(model, compiled=True), parameters)
+    compiled, p = ready(checked_model(model, compiled=True), parameters)
     known = set(names(compiled.tree))
     columns = checked_columns(times, values, known)
     own = {path: _fitting(compiled, path, *column) for path, column in columns.items() if path in known}

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler import compile, model_of, values_of
+from acausal.compiler import checked_model, checked_values, compile
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
@@ -100,7 +100,7 @@ def effects(
     SimulationError
         If neither the fullest scene nor the scene as it stands can be integrated.
     """
-    model, given = model_of(model), values_of(parameters)
+    model, given = checked_model(model), checked_values(parameters)
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_counts(0, pairs=pairs)

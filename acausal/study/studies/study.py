@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from acausal.compiler import CompiledModel, compile, model_of, values_of
+from acausal.compiler import CompiledModel, checked_model, checked_values, compile
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
 from acausal.language.arguments import fitting
@@ -232,7 +232,7 @@ def study(
     SimulationError
         If there is no reference.
     """
-    model, given = model_of(model), values_of(parameters)
+    model, given = checked_model(model), checked_values(parameters)
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
