@@ -20,8 +20,8 @@ from acausal.cli.common import (
     blaming,
     compile_scene,
     make_scene,
+    message_of,
     running,
-    said,
     stop_time_of,
 )
 from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
@@ -228,5 +228,5 @@ def _rescue(compute: Callable[[Progress], Result], files: Files, patterns: list[
     except (SimulationError, KeyboardInterrupt) as stop:
         part = getattr(stop, "result", None)
         if isinstance(part, Result):
-            files.write(part, _chosen(part, patterns), error=said(stop) or "interrupted")
+            files.write(part, _chosen(part, patterns), error=message_of(stop) or "interrupted")
         raise

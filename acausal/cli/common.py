@@ -80,7 +80,7 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
     except MemoryError:
         _stop("there is not enough memory; take fewer intervals, elements or variables.", FAILED)
     except SimulationError as error:
-        _stop(f"the simulation failed: {said(error)}", FAILED)
+        _stop(f"the simulation failed: {message_of(error)}", FAILED)
     except AcausalError as error:
         _stop(str(error), WRONG)
     except Terminated:
@@ -89,7 +89,7 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
         _stop("interrupted.", INTERRUPTED)
 
 
-def said(error: BaseException) -> str:
+def message_of(error: BaseException) -> str:
     """Return the message of an error as the command line says it: what was computed is written, not an attribute."""
     return error.said("is kept") if isinstance(error, SimulationError) else str(error)
 
