@@ -59,8 +59,8 @@ def _not_imported(error: ImportError, text: str) -> str:
     if missing:
         name, module = missing.groups()
         near = likeliest(name, [n for n in dir(sys.modules.get(module)) if n[:1] != "_"])
-        mend = f"; did you mean `{near}`?" if near else "."
-        return f"{type(error).__name__}: there is no `{name}` in {module}{mend}"
+        remedy = f"; did you mean `{near}`?" if near else "."
+        return f"{type(error).__name__}: there is no `{name}` in {module}{remedy}"
     if "relative import" in text:
         return "the file is no part of a package: write `import helper`, not `from . import helper`, for the file beside it."
     if isinstance(error, ModuleNotFoundError) and error.name:

@@ -101,8 +101,8 @@ def _no_scene(name: str, known: list[str]) -> str:
     if os.path.lexists(path) or os.sep in path or ".py" in path.lower() or ":" in name:
         return f"`{shown}` is neither a scene nor a model in a file of Python; {FORM}"
     near = likeliest(name.lower().replace("_", "-"), known, 0.5)
-    mend = f"; did you mean `{near}`?" if near else "."
-    return f"there is no scene `{shown}`{mend} Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
+    remedy = f"; did you mean `{near}`?" if near else "."
+    return f"there is no scene `{shown}`{remedy} Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
 
 
 def _of_file(path: Path, name: str) -> type[Model]:

@@ -26,7 +26,7 @@ def checked_model(given: Any, compiled: bool = False) -> Any:
     Raises
     ------
     DeclarationError
-        If it is none, with the mend.
+        If it is none, with the remedy.
     """
     if isinstance(given, CompiledModel):
         if compiled:

@@ -51,7 +51,7 @@ def compile(
     Raises
     ------
     AcausalError
-        Where the model is wrong: part, line, cause and mend.
+        Where the model is wrong: part, line, cause and remedy.
     """
     seconds: dict[str, float] = {}
     started = clock.perf_counter()
@@ -72,8 +72,8 @@ def compile(
         plan, linear = plan_of(flat)
     except (UnbalancedModelError, StructurallySingularError) as error:
         what, _, why = str(error).partition("\n")
-        if mend := remedy_for_zeros(model, parameters, flat, error):
-            why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), mend])
+        if remedy := remedy_for_zeros(model, parameters, flat, error):
+            why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), remedy])
         raise type(error)("\n".join(filter(None, (what, why)))) from None
     lap("analyse")
     reduced = split_time_comparisons(reduce(flat, plan, linear))

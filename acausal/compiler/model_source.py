@@ -79,18 +79,18 @@ def _refuse_hidden(cls: type) -> None:
     """Raise ExportError for a class that another process cannot import."""
     name = cls.__qualname__
     if "<locals>" in name:
-        where, mend = f"inside the function {name.partition('.<locals>')[0]}", "Move it to the top of its module"
+        where, remedy = f"inside the function {name.partition('.<locals>')[0]}", "Move it to the top of its module"
     elif cls.__module__ in ("__main__", "__mp_main__"):
         where = "in the script that runs (__main__)"
-        mend = f"Move it to a file of its own, and import it: from {name.lower()} import {name}"
+        remedy = f"Move it to a file of its own, and import it: from {name.lower()} import {name}"
     elif not _importable(cls.__module__):
         file = Path(getattr(sys.modules.get(cls.__module__), "__file__", None) or cls.__module__)
-        where, mend = f"in {file}, which was not imported", f"Import it instead: from {file.stem} import {name}"
+        where, remedy = f"in {file}, which was not imported", f"Import it instead: from {file.stem} import {name}"
     else:
         return
     raise ExportError(
         f"a compiled model with {cls.__name__} cannot be pickled: the class is defined {where}, where another process "
-        f"cannot import it. {mend}. A result can be pickled nevertheless."
+        f"cannot import it. {remedy}. A result can be pickled nevertheless."
     )
 
 

@@ -81,8 +81,8 @@ class Settable:
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
         if isinstance(value, Expr):
             what = f"{value!r}, an expression; a compiled model takes numbers"
-            mend = f"a quantity; give the number alone, in SI units: {{{path!r}: {value!r}}}"
-            raise DeclarationError(f"`{path}` is {mend if value.sx.is_constant() else what}.")
+            remedy = f"a quantity; give the number alone, in SI units: {{{path!r}: {value!r}}}"
+            raise DeclarationError(f"`{path}` is {remedy if value.sx.is_constant() else what}.")
         if isinstance(value, Mapping):
             inner = next(iter(value), "m")
             raise DeclarationError(

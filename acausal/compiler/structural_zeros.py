@@ -32,7 +32,7 @@ class _Zero:
     component: Component
     whole: bool
     other: np.ndarray
-    mend: str
+    remedy: str
 
 
 def remedy_for_zeros(
@@ -94,7 +94,7 @@ def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
     head = f"Nothing determines {what}: a" if what else "A"
     which = "this" if len(zeros) == 1 else "one of these" if alone else "these"
     where = "is 0" if any(zero.whole for zero in zeros) else "has a 0 on its diagonal"
-    lines = "\n".join(f"  {zero.mend}" for zero in zeros)
+    lines = "\n".join(f"  {zero.remedy}" for zero in zeros)
     return (
         f"{head} parameter {where}, so the terms that it multiplies were removed. Give {which}:\n{lines}\n"
         "or connect a part that has mass or inertia, or add an equation that determines it."
@@ -153,8 +153,8 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
             zero = whole in set_ and whole not in some
             if (zero and lacks) or (_is_singular(getattr(component, name)) and not _follows(whole, found)):
                 where = f"{Origin.of(component)}: " if path else ""
-                mend = f"{where}{type(component).__name__}({name}=...), {declared.description}"
-                found[whole] = _Zero(component, zero, _other(getattr(component, name).shape), mend)
+                remedy = f"{where}{type(component).__name__}({name}=...), {declared.description}"
+                found[whole] = _Zero(component, zero, _other(getattr(component, name).shape), remedy)
     return found
 
 

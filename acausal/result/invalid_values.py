@@ -30,7 +30,5 @@ def invalid_values(quantity: Quantity, array: np.ndarray, time: np.ndarray, why:
     nan = bool(np.isnan(array[wrong]).any())
     what = "not a number (NaN)" if nan else "infinite"
     cause = "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
-    mend = (why and why(row)) or f"Check the equation that gives it: {cause}."
-    return (
-        f"`{name}` is {what} at {rows.sum()} of {n} times, first at t = {time[row]:.6g} s. {mend[0].upper()}{mend[1:]}"
-    )
+    remedy = (why and why(row)) or f"Check the equation that gives it: {cause}."
+    return f"`{name}` is {what} at {rows.sum()} of {n} times, first at t = {time[row]:.6g} s. {remedy[0].upper()}{remedy[1:]}"

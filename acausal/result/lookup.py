@@ -289,5 +289,5 @@ def invalid_key(key: object) -> str:
     text = shown(key)
     for kind, word in ((f.Field, "a field of the class"), (Equation, "an equation")):
         text = word if isinstance(key, kind) else text
-    mend = "; give several one by one." if isinstance(key, list | tuple | set) else "."
-    return f"a result is read by a path such as 'beam.frame_b.r_0', not by {text}{mend}"
+    remedy = "; give several one by one." if isinstance(key, list | tuple | set) else "."
+    return f"a result is read by a path such as 'beam.frame_b.r_0', not by {text}{remedy}"

@@ -131,8 +131,8 @@ def _formats() -> dict[str, str]:
         from matplotlib.backend_bases import FigureCanvasBase
     except (ImportError, OSError, ValueError) as error:
         name = os.environ.get("MPLBACKEND")
-        mend = f"; MPLBACKEND is {name!r}: unset it, pictures need no screen" if name and name in str(error) else ""
-        raise ExportError(f"matplotlib cannot be loaded, so there are no pictures{mend or f': {error}'}.") from None
+        remedy = f"; MPLBACKEND is {name!r}: unset it, pictures need no screen" if name and name in str(error) else ""
+        raise ExportError(f"matplotlib cannot be loaded, so there are no pictures{remedy or f': {error}'}.") from None
     return FigureCanvasBase.get_supported_filetypes()
 
 

@@ -101,10 +101,10 @@ class Snapshot:
             If there is none of that name, or the key is an expression.
         """
         if isinstance(key, Expr):
-            mend = f"result[{key.name!r}]" if key.name in self.quantities else "result['a'] - result['b']"
+            remedy = f"result[{key.name!r}]" if key.name in self.quantities else "result['a'] - result['b']"
             raise DeclarationError(
                 f"`{key!r}` is an expression of symbols, and this result was loaded without its model: read quantities by "
-                f"name and compute with the arrays, as in {mend}; or simulate again."
+                f"name and compute with the arrays, as in {remedy}; or simulate again."
             )
         if not isinstance(key, str | Path):
             raise DeclarationError(invalid_key(key))

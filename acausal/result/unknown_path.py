@@ -41,14 +41,14 @@ def unknown_path(path: str, known: list[str], tree: Component | None = None, kin
         if tree
         else kind
     )
-    mend = missing(path, known, kind)
-    if mend == "." and tree:
-        mend = _nearest_part(path, tree)
+    remedy = missing(path, known, kind)
+    if remedy == "." and tree:
+        remedy = _nearest_part(path, tree)
     if plain in known and plain != path and "]." not in path:
-        mend = f"; indices are whole numbers in brackets, such as `{plain}[0]`."
+        remedy = f"; indices are whole numbers in brackets, such as `{plain}[0]`."
     if path.endswith(FILES):
-        mend = "; the name of a file is given by path=..."
-    return f"there is no `{shown_name(path)}` in the model{mend}"
+        remedy = "; the name of a file is given by path=..."
+    return f"there is no `{shown_name(path)}` in the model{remedy}"
 
 
 def _nearest_part(path: str, tree: Component) -> str:

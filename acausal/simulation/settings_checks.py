@@ -86,8 +86,8 @@ def check_intervals(intervals: Any) -> None:
     """
     if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
         whole = isinstance(intervals, float) and intervals >= 1 and intervals.is_integer()
-        mend = f": {int(intervals)}" if whole else ""
-        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1{mend}.")
+        remedy = f": {int(intervals)}" if whole else ""
+        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1{remedy}.")
     if intervals > MOST:
         raise DeclarationError(f"intervals is {intervals}; at most {MOST} points are allowed.")
 

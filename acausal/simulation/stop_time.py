@@ -81,7 +81,7 @@ def own_value(model: Component, name: str, values: Mapping[str, Any] | None = No
         except AttributeError as error:
             if not isinstance(error.obj, Component) or error.name not in error.obj.fields:
                 raise
-            raise DeclarationError(f"{name} follows from the variable `{error.name}`. {_MEND.format(name)}") from None
+            raise DeclarationError(f"{name} follows from the variable `{error.name}`. {_REMEDY.format(name)}") from None
         finally:
             PENDING.reset(now)
 
@@ -115,9 +115,9 @@ def _number(sx: ca.SX, built: Instantiation, name: str) -> float:
     inputs = {s.element_hash() for s in known.symbols}
     if sx.numel() != 1 or any(s.element_hash() not in inputs for s in ca.symvar(sx)):
         what = "time" if sx.numel() == 1 else f"an array of shape {sx.shape}"
-        raise DeclarationError(f"{name} of {type(built.root).__name__} follows from {what}. {_MEND.format(name)}")
+        raise DeclarationError(f"{name} of {type(built.root).__name__} follows from {what}. {_REMEDY.format(name)}")
     function = ca.Function("own", [stacked(known.symbols)], [ca.densify(sx)])
     return float(Call(function)(np.array(known.values))[0][0])
 
 
-_MEND = "Let it follow from parameters and structural fields alone, or give a number: {}=..."
+_REMEDY = "Let it follow from parameters and structural fields alone, or give a number: {}=..."
