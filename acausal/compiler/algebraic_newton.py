@@ -1,4 +1,4 @@
-"""Newton steps for algebraic unknowns, one part of the equations after the other."""
+"""Newton steps for the algebraic unknowns, block by block of the block-triangular form."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from acausal.reduce import Level, solution_levels
 
 @dataclass(frozen=True)
 class NewtonStep:
-    """A Newton step for some algebraic unknowns, where all that it needs of the others is right.
+    """A Newton step for a block of algebraic unknowns, given the solution of the blocks before it.
 
     Parameters
     ----------
     unknowns : array of int
         Positions among the algebraic unknowns.
     linear : bool
-        Whether one step is enough, up to rounding.
+        Whether the block is linear: one step solves it, up to round-off.
     function : Vectorized
         From x, z, parameters, time and constants: these unknowns after the step.
     """
@@ -33,9 +33,9 @@ class NewtonStep:
 def newton_steps(
     residuals: ca.SX, z: ca.SX, arguments: list[ca.SX], unknowns: np.ndarray, equations: np.ndarray
 ) -> tuple[NewtonStep, ...]:
-    """Return the passes that solve equations for unknowns; `equations[i]` is matched with `unknowns[i]`.
+    """Return the Newton steps that solve equations for unknowns; `equations[i]` is matched with `unknowns[i]`.
 
-    A part that is not linear in its unknowns is a pass of its own, and so are all that follow up to the next of them.
+    Each nonlinear block is a step of its own; the linear blocks between two of them form one step.
     """
     alg, own = residuals[equations.tolist()], z[unknowns.tolist()]
     J = ca.jacobian(alg, own)
@@ -49,7 +49,7 @@ def newton_steps(
 
 
 def _step(arguments: list[ca.SX], alg: ca.SX, J: ca.SX, level: Level, unknowns: np.ndarray) -> ca.Function:
-    """From x, z, parameters, time and constants: z after a Newton step in the unknowns of a level."""
+    """Function of x, z, parameters, time and constants: z after a Newton step in the unknowns of a level."""
     rows, columns = list(level.equations), list(level.variables)
     parts = ca.Function("part", arguments, [ca.densify(alg[rows]), J[rows, columns]])
     given = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]
@@ -61,7 +61,7 @@ def _step(arguments: list[ca.SX], alg: ca.SX, J: ca.SX, level: Level, unknowns: 
 
 
 def _joined(arguments: list[ca.SX], steps: list[tuple[Level, ca.Function]], unknowns: np.ndarray) -> NewtonStep:
-    """One pass of several steps."""
+    """Join the steps of several levels into one."""
     x, z, *others = (ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments))
     found = z
     for _, step in steps:

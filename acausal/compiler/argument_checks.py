@@ -1,4 +1,4 @@
-"""What every entry of the package requires of a model and of values by path, in the user's words."""
+"""Checks of the two arguments that every entry point takes: a model, and values by path."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from acausal.language.values import shown_or_kind
 
 
 def checked_model(given: Any, compiled: bool = False) -> Any:
-    """Return a whole model as it is given.
+    """Return the argument if it is a whole model.
 
     Parameters
     ----------
     given : object
-        What should be a model.
+        The argument.
     compiled : bool
-        Whether a compiled one is accepted as well.
+        Whether a compiled model is accepted as well.
 
     Raises
     ------
     DeclarationError
-        If it is none, with the remedy.
+        If it is not a model; the message names the remedy.
     """
     if isinstance(given, CompiledModel):
         if compiled:
@@ -52,12 +52,12 @@ def checked_model(given: Any, compiled: bool = False) -> Any:
         )
     kind = type(given).__name__
     if any(hasattr(type(given), name) for name in ("equations", "connections")):
-        raise DeclarationError(f"{kind} is no model: derive its class from Model, class {kind}(Model).")
+        raise DeclarationError(f"{kind} is not a model: derive its class from Model, class {kind}(Model).")
     raise DeclarationError(f"a model is an instance such as SpinUp(), not {shown_or_kind(given)}.")
 
 
 def checked_values(given: Any) -> dict[str, Any]:
-    """Return values by path.
+    """Return the argument as a dictionary of values by path.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def checked_values(given: Any) -> dict[str, Any]:
     Raises
     ------
     DeclarationError
-        If it is something else, or a key is no path.
+        If it is something else, or a key is not a path.
     """
     if given is None:
         return {}
@@ -79,6 +79,8 @@ def checked_values(given: Any) -> dict[str, Any]:
     for key, value in given.items():
         if not isinstance(key, str | Path):
             text = f'"{key.name}"' if isinstance(key, Expr) and key.name else 'such as "mass.m"'
-            raise DeclarationError(f"{shown_or_kind(key)} is no path of a parameter; write the path as a text, {text}.")
+            raise DeclarationError(
+                f"{shown_or_kind(key)} is not the path of a parameter; write the path as a text, {text}."
+            )
         found[str(key)] = value
     return found

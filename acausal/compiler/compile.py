@@ -51,7 +51,7 @@ def compile(
     Raises
     ------
     AcausalError
-        Where the model is wrong: part, line, cause and remedy.
+        If the model is wrong; the message names part, line, cause and remedy.
     """
     seconds: dict[str, float] = {}
     started = clock.perf_counter()
@@ -66,7 +66,7 @@ def compile(
     free = (free,) if isinstance(free, str) else tuple(free)
     flat = flatten(model, parameters, free)
     settable = Settable(flat)
-    settable.values(None)  # a length of 0 also breaks the structure: report the cause first
+    settable.values(None)  # a parameter out of its limits, such as a length of 0, is reported before its consequences
     lap("flatten")
     try:
         plan, linear = plan_of(flat)
@@ -82,7 +82,7 @@ def compile(
         reduced,
         seconds,
         Source(partial(compile, free=free) if free else compile, model, parameters),
-        kept={Settable: settable},  # what it checked is not checked again
+        kept={Settable: settable},  # its values have been checked already
     )
     _ = (
         compiled.local,
@@ -101,7 +101,7 @@ def compile(
 def ready(
     model: Component | CompiledModel, parameters: Mapping[str, Any] | None = None
 ) -> tuple[CompiledModel, np.ndarray]:
-    """Compile a model that is not compiled yet; return it with the values of its free parameters after some changes."""
+    """Return the compiled model, compiling it if needed, and the values of its free parameters after the changes."""
     if isinstance(model, CompiledModel):
         return model, model.settable.values(checked_values(parameters))
     compiled = compile(model, parameters)

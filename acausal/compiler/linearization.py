@@ -11,7 +11,10 @@ import scipy
 
 
 def with_entries(pattern: scipy.sparse.csc_matrix, entries: np.ndarray) -> scipy.sparse.csc_matrix:
-    """Return a matrix of the sparsity of another one, which it shares; the constructor checks it again, ten times as long."""
+    """Return a matrix with the pattern of another and new entries.
+
+    The arrays of the pattern are shared: the constructor would check them again, which takes ten times as long.
+    """
     found = copy(pattern)
     found.data = entries
     return found
@@ -21,8 +24,8 @@ def with_entries(pattern: scipy.sparse.csc_matrix, entries: np.ndarray) -> scipy
 class PointLinearization:
     """Value and Jacobian of the model at one point.
 
-    `ode`, `alg` and `conditions` are stacked in `value`; `entries` are those of their derivatives by (x, z), where `pattern`
-    has them. A matrix is made where one is needed: that takes as long as evaluating them.
+    `value` stacks `ode`, `alg` and `conditions`; `entries` are the nonzeros of their derivatives by (x, z), in the order of
+    `pattern`. The matrix is built on demand: that takes as long as the evaluation.
     """
 
     value: np.ndarray
@@ -31,13 +34,13 @@ class PointLinearization:
 
     @cached_property
     def jacobian(self) -> scipy.sparse.csc_matrix:
-        """The derivatives as a matrix."""
+        """The Jacobian as a sparse matrix."""
         return with_entries(self.pattern, self.entries)
 
     def terms(self, sizes: np.ndarray) -> np.ndarray:
-        """Return the sizes of the terms of the derivatives, in the order of `entries`, for unknowns of some sizes."""
+        """Return |entry| times the nominal size of its unknown, in the order of `entries`."""
         return np.abs(self.entries) * np.repeat(sizes, np.diff(self.pattern.indptr))
 
     def magnitudes(self, sizes: np.ndarray) -> np.ndarray:
-        """Return the sum of the sizes of the terms in each row, for unknowns of some sizes."""
+        """Return the sum of these terms in each row."""
         return np.bincount(self.pattern.indices, self.terms(sizes), minlength=self.pattern.shape[0])

@@ -1,4 +1,4 @@
-"""Functions of a compiled model whose results are kept with it."""
+"""Memoized functions of a compiled model; the model holds the results."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ R = TypeVar("R")
 
 
 class Compiled(Protocol):
-    """Keeps what was computed from its equations."""
+    """An object that holds results computed from its equations."""
 
     @property
     def kept(self) -> dict[Any, Any]:
@@ -20,12 +20,12 @@ class Compiled(Protocol):
 
 
 def memoized(function: Callable[..., R]) -> Callable[..., R]:
-    """Evaluate a function of a compiled model, and of arguments that can be keys, once; its result follows from them alone.
+    """Memoize a pure function of a compiled model and of hashable arguments.
 
     Parameters
     ----------
     function : callable
-        Takes a compiled model first.
+        Its first argument is a compiled model.
     """
 
     @wraps(function)
@@ -34,27 +34,25 @@ def memoized(function: Callable[..., R]) -> Callable[..., R]:
         if place not in compiled.kept:
             before, started = memo_seconds(compiled), clock.perf_counter()
             compiled.kept[place] = function(compiled, *key)
-            compiled.kept[memo_seconds] = (
-                before + clock.perf_counter() - started
-            )  # what it made by others of its kind among it
+            # Nested memoized calls have added their own time meanwhile; it is part of this span.
+            compiled.kept[memo_seconds] = before + clock.perf_counter() - started
         return compiled.kept[place]
 
     return call
 
 
 def memo_seconds(compiled: Compiled) -> float:
-    """Return how many seconds went into results that are kept for good: they belong to compiling, whichever run needs them."""
+    """Return the seconds spent on memoized results: they count as compile time, whichever run needs them first."""
     return compiled.kept.get(memo_seconds, 0.0)
 
 
 def memoized_latest(calls: int) -> Callable[[Callable[..., R]], Callable[..., R]]:
-    """Evaluate a function of a compiled model again only where its other arguments are none of those of the last results.
+    """Memoize the last results of a pure function of a compiled model; callers must not change them.
 
     Parameters
     ----------
     calls : int
-        How many results are kept. The function takes a compiled model first; its result follows from the arguments alone, and
-        nobody changes it.
+        Number of results that are held.
     """
 
     def decorate(function: Callable[..., R]) -> Callable[..., R]:

@@ -1,8 +1,8 @@
-"""Comparisons of time with parameters inside joined conditions: each switches by the clock, at a break time.
+"""Time events inside compound conditions: each comparison of time with parameters becomes a switch of its own.
 
-A condition that also compares other things is watched, but what the clock decides in it must not be left to a search: a
-pulse may begin and end between two looks. So each such comparison becomes a switch of its own, whose instants are
-break times, and the condition is watched with what these switches leave of it.
+A compound condition that also compares variables is an event indicator and located by sampling. A pulse in time could
+begin and end between two samples, so its comparisons with time are separated: they change at break times, which are
+known before the run, and the indicator is what these switches leave of the condition.
 """
 
 from __future__ import annotations
@@ -22,54 +22,68 @@ from acausal.symbols import Distinct, scalars
 
 
 def time_comparisons(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], list[bool], ca.SX]:
-    """Return which comparisons hold time and parameters alone, which of these are curved, and their excesses, a column.
-
-    The instants of the others are known from parameters, those of curved ones can be found reliably.
+    """Find the comparisons that depend on time and parameters alone.
 
     Parameters
     ----------
     reduced : ReducedModel
         The model.
     conditions : iterable of Condition
-        Of their comparisons, in order.
+        Conditions whose comparisons are classified, in order.
+
+    Returns
+    -------
+    timed : list of bool
+        Whether each comparison depends on time and parameters alone.
+    nonlinear : list of bool
+        Whether it is also nonlinear in time: its roots are then found by interval arithmetic.
+    excess : casadi.SX
+        The excesses of all comparisons, a column.
     """
     entries = [part.excess.sx for condition in conditions for part in condition.comparisons]
     if not entries:
         return [], [], ca.SX(0, 1)
     excess = reduced.running.resolve(ca.vertcat(*entries))
     free = {s.element_hash() for s in scalars(ca.vertcat(reduced.p, time.sx))}
-    bent = ca.which_depends(excess, time.sx, 2, True)
+    nonlinear = ca.which_depends(excess, time.sx, 2, True)
     timed = [
         all(s.element_hash() in free for s in ca.symvar(e)) and (not curved or all(map(bounded, functions(reduced, e))))
-        for e, curved in zip(scalars(excess), bent, strict=True)
+        for e, curved in zip(scalars(excess), nonlinear, strict=True)
     ]
-    return timed, [t and curved for t, curved in zip(timed, bent, strict=True)], excess
+    return timed, [t and curved for t, curved in zip(timed, nonlinear, strict=True)], excess
 
 
 def functions(reduced: ReducedModel, excess: ca.SX) -> tuple[ca.Function, ca.Function]:
-    """Functions of parameters and time: an excess, and its derivative."""
+    """Return an excess and its time derivative as functions of parameters and time."""
     given = [reduced.p, time.sx]
     slope = ca.densify(ca.jacobian(excess, time.sx))
     return ca.Function("excess", given, [ca.densify(excess)]), ca.Function("slope", given, [slope])
 
 
 def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.SX]:
-    """Return which comparisons are linear in time, with factors of parameters and constants alone, and when they change.
+    """Find comparisons that are linear in time with coefficients of parameters and constants alone, and their roots.
 
     Parameters
     ----------
     reduced : ReducedModel
         The model.
     excess : casadi.SX
-        Of comparisons, a column.
+        Excesses of comparisons, a column.
+
+    Returns
+    -------
+    found : list of int
+        Positions of these comparisons.
+    instants : casadi.SX
+        Their roots, in s.
     """
     free = {s.element_hash() for s in scalars(ca.vertcat(reduced.p, reduced.constants, time.sx))}
-    bent = ca.which_depends(excess, time.sx, 2, True) if excess.numel() else []
+    nonlinear = ca.which_depends(excess, time.sx, 2, True) if excess.numel() else []
     moving = ca.which_depends(excess, time.sx, 1, True) if excess.numel() else []
     plain = [
         k
         for k, e in enumerate(scalars(excess))
-        if moving[k] and not bent[k] and all(s.element_hash() in free for s in ca.symvar(e))
+        if moving[k] and not nonlinear[k] and all(s.element_hash() in free for s in ca.symvar(e))
     ]
     if not plain:
         return [], ca.SX(0, 1)
@@ -78,7 +92,7 @@ def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.S
 
 
 def truth(condition: Condition, parts: Iterator[ca.SX]) -> ca.SX:
-    """Return 1 where a condition holds and 0 elsewhere; `parts` are the excesses of its comparisons, in order."""
+    """Return the truth value of a condition, 1 or 0, from the excesses of its comparisons in order."""
     if not isinstance(condition, Joined):
         return ca.SX(condition.holds(next(parts)))
     a, b = truth(condition.a, parts), truth(condition.b, parts)
@@ -86,7 +100,7 @@ def truth(condition: Condition, parts: Iterator[ca.SX]) -> ca.SX:
 
 
 def split_time_comparisons(reduced: ReducedModel) -> ReducedModel:
-    """Return the model with a switch for every comparison with time in a condition that is not decided by time alone."""
+    """Give every comparison with time in a condition that also compares variables a switch of its own."""
     flat = reduced.flat
     joined = [guard for guard in flat.discontinuities.guards if isinstance(guard.condition, Joined)]
     timed, _, excess = time_comparisons(reduced, [guard.condition for guard in joined])
@@ -114,7 +128,7 @@ def split_time_comparisons(reduced: ReducedModel) -> ReducedModel:
 
 
 def _switch(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guard]], distinct: Distinct) -> ca.SX:
-    """Return the switch of a comparison, the same for the same comparison."""
+    """Return the switch of a comparison; equal comparisons share one."""
     number = distinct.number(condition.excess.sx, condition.kind)
     if number == len(switches):
         switches.append((ca.SX.sym("clock"), Guard(condition, guard.origin)))
@@ -123,14 +137,17 @@ def _switch(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guar
 
 @dataclass(frozen=True)
 class _Left:
-    """What switches leave of a condition: where it certainly holds, where it certainly does not, and what decides else."""
+    """A condition with the truth values of some comparisons known.
+
+    `yes` is 1 where these decide that it holds, `no` where they decide that it does not; elsewhere `rest` decides.
+    """
 
     yes: ca.SX
     no: ca.SX
     rest: Condition | None
 
     def condition(self) -> Condition:
-        """Return it as one comparison."""
+        """Return the condition as one comparison."""
         assert self.rest is not None
         excess = ca.if_else(self.yes, -1, ca.if_else(self.no, 1, self.rest.excess.sx))
         return Condition(Expr(excess), self.rest.kind)
@@ -146,7 +163,7 @@ def _what_is_left(condition: Condition, switches: dict[int, ca.SX]) -> _Left:
     no = ca.fmax(a.no, b.no) if every else a.no * b.no
     if a.rest is None or b.rest is None:
         return _Left(yes, no, b.rest if a.rest is None else a.rest)
-    # A part that is settled without settling the whole does not matter.
+    # A decided operand that does not decide the whole leaves it to the other operand.
     silent_a, silent_b = (a.yes, b.yes) if every else (a.no, b.no)
     both = Joined(a.rest, b.rest, every)
     excess = ca.if_else(silent_a, b.rest.excess.sx, ca.if_else(silent_b, a.rest.excess.sx, both.excess.sx))

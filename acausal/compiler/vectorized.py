@@ -1,4 +1,4 @@
-"""A function of the model at many places: some of them in one call."""
+"""A function of the model evaluated at many points."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ import numpy as np
 from acausal.compiler.call import Call, quiet
 from acausal.core import library, make_tape
 
-# Places in one call.
+# Points evaluated in one call of CasADi.
 AT_ONCE = 16
-# Places at which a function was evaluated when a tape, six times as fast, would have paid: making one takes so long (300 to 780,
-# eight functions of 2 to 1,548 operations of four scenes).
+# Number of evaluated points after which a function is compiled to a tape: evaluation becomes six times as fast, and building
+# the tape costs as much as 300 to 780 evaluations (eight functions of 2 to 1,548 operations of four scenes).
 PAYS = 700
 
 
 class Vectorized:
-    """A function with one result, at many places; if it is one of scalar symbols that is called often, by a tape.
+    """A function with one result, evaluated at many points; by a tape once that pays.
 
     Parameters
     ----------
     function : casadi.Function
-        The function at one place.
+        The function at one point; only functions of scalar symbols (SX) become tapes.
     """
 
     def __init__(self, function: ca.Function) -> None:
@@ -32,12 +32,12 @@ class Vectorized:
         self._places, self._tape = 0, None
 
     def __call__(self, *arguments: np.ndarray) -> np.ndarray:
-        """Return one row for each place; nan where the evaluation failed, and in those evaluated with it.
+        """Return one row per point; NaN where the evaluation failed, and in the points evaluated in the same call.
 
         Parameters
         ----------
         *arguments : arrays
-            Arguments of the function: of shape (n, size), or (size,) where they are the same everywhere.
+            Arguments of the function: of shape (n, size), or (size,) if they are the same at all points.
         """
         if self._tape:
             return self._tape.rows(*arguments)
@@ -66,11 +66,11 @@ class Vectorized:
 
 
 def vectorized(function: ca.Function) -> Callable[..., np.ndarray]:
-    """Return a function at many places, as `Vectorized` takes it, that is called often enough to pay for a tape.
+    """Return a vectorized function that is called often enough to pay for a tape from the start.
 
     Parameters
     ----------
     function : casadi.Function
-        The function at one place, made from SX.
+        The function at one point, of scalar symbols (SX).
     """
     return make_tape(function).rows if library() else Vectorized(function)
