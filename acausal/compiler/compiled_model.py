@@ -1,4 +1,4 @@
-"""The compiled model: functions of states, algebraic unknowns, parameters and time, ready to integrate."""
+"""The compiled model: functions of states, algebraic unknowns, parameters and time."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ class CompiledModel:
     seconds : dict of str to float
         Time of each stage of compiling.
     source : Source, optional
-        What it was compiled from: a pickle holds that alone.
+        What it was compiled from; a pickle holds nothing else.
     declared : mapping of str to value, optional
-        What a model without a source declares of its simulation, numbers or expressions of parameters.
+        Simulation settings declared by a model without a source: numbers or expressions of parameters.
     """
 
     reduced: ReducedModel
@@ -56,11 +56,11 @@ class CompiledModel:
 
     @alone
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the model, which is compiled again by whoever reads it."""
+        """Pickle the source of the model; unpickling compiles it again."""
         return pickled(self.source)
 
     def __copy__(self) -> CompiledModel:
-        # The equations never change; everything that is computed from them is recomputed.
+        # The equations are immutable and shared; all that is computed from them is computed again.
         return CompiledModel(self.reduced, dict(self.seconds), self.source, declared=self.declared)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
@@ -68,7 +68,7 @@ class CompiledModel:
 
     @property
     def tree(self) -> Any:
-        """The bound model; its attributes are the symbols of its variables."""
+        """The bound model, whose attributes are the symbols of its variables."""
         return self.reduced.flat.tree
 
     @cached_property
@@ -84,16 +84,16 @@ class CompiledModel:
     @property
     @alone
     def report(self) -> dict[str, Any]:
-        """Sizes at each stage, states, what was removed, and seconds."""
+        """Sizes at each stage, states, removed equations, and seconds."""
         return self.report_at()
 
     def report_at(self, found: AtStart | None = None) -> dict[str, Any]:
-        """Return the report with what was found at a start."""
+        """Return the report, with the findings at a start."""
         return report(self.reduced, self.local.function, found or AtStart(), self.seconds)
 
     @alone
     def summary(self, found: AtStart | None = None) -> str:
-        """Return the report as text, with what was found at a start."""
+        """Return the report as text, with the findings at a start."""
         return summary(self.report_at(found))
 
     @property
@@ -113,7 +113,7 @@ class CompiledModel:
 
     @cached_property
     def nominal(self) -> np.ndarray:
-        """Typical size of each state and algebraic unknown."""
+        """Nominal value of each state and algebraic unknown."""
         own, plan = self.reduced.flat.unknowns, self.reduced.plan
         nominal = np.concatenate([own.nominal, np.ones(plan.system.n_variables - len(own.nominal))])
         for p in plan.constrained.projections:
@@ -122,7 +122,7 @@ class CompiledModel:
 
     @cached_property
     def sizes(self) -> tuple[tuple[str, bool], ...]:
-        """Unit of each state, its name where that is not known, and whether its nominal value is declared."""
+        """For each state its unit, or its name if the unit is unknown, and whether its nominal value is declared."""
         own, plan = self.reduced.flat.unknowns, self.reduced.plan
         of = {p.state: p.coordinate for p in plan.constrained.projections}
         places = [of.get(k, k) for k in plan.states]
@@ -139,7 +139,7 @@ class CompiledModel:
 
     @cached_property
     def constraints(self) -> Constraints:
-        """Constraints that hold at several levels."""
+        """Loop constraints at position, velocity and acceleration level."""
         return Constraints(self.reduced)
 
     @cached_property
@@ -150,18 +150,18 @@ class CompiledModel:
 
     @cached_property
     def values(self) -> Call:
-        """Function of ode, alg and conditions."""
+        """Function that returns ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
     @memoized
     def newton_steps(self, wanted: tuple[int, ...]) -> tuple[NewtonStep, ...]:
-        """Newton steps that solve for algebraic unknowns and all that they need, one part after the other."""
+        """Return Newton steps, in block order, that solve for algebraic unknowns and all on which they depend."""
         alg = self._shared[self.nx : self.nx + self.nz]
         return newton_steps(alg, self.reduced.z, self.arguments[:-1], *self.dependence.needed(wanted))
 
     @property
     def dependence(self) -> Dependence:
-        """Which algebraic unknowns a value needs."""
+        """The algebraic unknowns on which an expression depends."""
         return self.reduced.dependence
 
     @cached_property
@@ -170,7 +170,7 @@ class CompiledModel:
 
     @cached_property
     def local(self) -> Call:
-        """Function of ode, alg and conditions with their sparse Jacobian by (x, z)."""
+        """Function that returns ode, alg and conditions, and their sparse Jacobian by (x, z)."""
         J = ca.jacobian(self._equations, ca.vertcat(self.reduced.x, self.reduced.z))
         return Call(ca.Function("local", self.arguments, [ca.densify(self._equations), J]))
 
@@ -183,7 +183,7 @@ class CompiledModel:
 
     @cached_property
     def pattern(self) -> scipy.sparse.csc_matrix:
-        """Sparsity of the Jacobian: all its entries are 0."""
+        """Sparsity pattern of the Jacobian, with all entries 0."""
         found = self.local.function.sparsity_out(1)
         rows, starts = (np.array(k, dtype=np.int32) for k in (found.row(), found.colind()))
         return scipy.sparse.csc_matrix((np.zeros(len(rows)), rows, starts), shape=found.shape)
@@ -200,7 +200,7 @@ class CompiledModel:
 
     @cached_property
     def layout(self) -> Layout:
-        """How many constants a segment has."""
+        """Layout of the vector of constants."""
         guards, constraints = self.guards, self.constraints
         moves = self.reduced.projections.choice.numel() > 0
         parts = len(self.reduced.flat.loops.of_parts) if moves else 0
@@ -209,16 +209,16 @@ class CompiledModel:
 
     @cached_property
     def guards(self) -> EventConditions:
-        """Conditions that are watched during the integration."""
+        """Event conditions of the model."""
         return EventConditions(self.reduced, self.start.function)
 
     def integrator(
         self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool, sized: bool
     ) -> Call:
-        """Return the integrator for a relative grid and options, built once.
+        """Return the integrator for a relative output grid and options; it is built once.
 
-        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the constants are its parameters; if it
-        sees states over their sizes, so are these.
+        Time is scaled, t = t0 + s T. Its parameters are t0, T, the hoisted expressions of parameters and the constants; if
+        `sized`, the states are divided by their sizes, which are further parameters.
         """
         chosen = tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items()))
         key = (plugin, grid, chosen, energy, moves, sized)
@@ -232,12 +232,12 @@ class CompiledModel:
 
     @cached_property
     def _shared(self) -> ca.SX:
-        """Derivatives of the states, residuals and powers in one column, with what they have in common written once."""
+        """Derivatives of the states, residuals and powers in one column, with common subexpressions shared."""
         return ca.cse(ca.vertcat(self.reduced.running.ode, self.reduced.running.alg, self.powers))
 
     @cached_property
     def _hoisted(self) -> tuple[ca.SX, ca.SX, ca.SX]:
-        """Equations with everything that follows from parameters alone replaced by symbols, computed once a run."""
+        """Equations with expressions of parameters alone replaced by symbols, which are evaluated once a run."""
         r = self.reduced
         column, symbols, values = ca.extract_parametric(self._shared, r.p)
         own = {s.element_hash() for s in scalars(r.p)}
@@ -272,7 +272,7 @@ class CompiledModel:
 
     @cached_property
     def hoist(self) -> Call:
-        """Function of parameters: what the integrated equations need of them."""
+        """Function of parameters: the hoisted expressions that the integrated equations take as parameters."""
         return Call(ca.Function("hoist", [self.reduced.p], [ca.densify(self._hoisted[2])]))
 
     @memoized
@@ -281,7 +281,7 @@ class CompiledModel:
 
     @alone
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
-        """Return the values of all free parameters after some changes; see `Settable`."""
+        """Return the values of all free parameters after the changes; see `Settable`."""
         return self.settable.values(changes)
 
     @alone
@@ -291,10 +291,10 @@ class CompiledModel:
 
     @property
     def requirements(self) -> Requirements:
-        """What components require of parameters, and of variables at the start."""
+        """Requirements of components on parameters, and on variables at the start."""
         return self.settable.requirements
 
     @cached_property
     def settable(self) -> Settable:
-        """Its parameters, for callers that let no other thread in."""
+        """The settable parameters, for callers that hold the lock."""
         return self.kept.get(Settable) or Settable(self.reduced.flat)

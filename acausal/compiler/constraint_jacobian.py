@@ -1,4 +1,4 @@
-"""The constraints that hold at several levels, as numbers."""
+"""Residuals and Jacobian of the loop constraints at position, velocity and acceleration level."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from acausal.symbols import scalars, stacked
 
 
 class Constraints:
-    """Residuals and Jacobian of the constraints by the states, and the layout of what is chosen for them.
+    """Residuals and Jacobian of the constraints by the states, and the layout of the projection.
 
     Parameters
     ----------
@@ -35,23 +35,23 @@ class Constraints:
     lowest : array of int
         Position of the residual of each constraint at its lowest level.
     is_lowest : array of bool
-        Whether a residual is one of these.
+        Whether a residual is at the lowest level of its constraint.
     closures : list of int
         Constraint of each closure.
     of_loops : list of int
-        Those that close loops.
+        Constraints that close loops.
     kinds : array of int
-        Residuals that are entries of one equation, or the same time derivative of it, have one number.
+        Number of the vector equation, and its time derivative, to which a residual belongs.
     places : list of int
-        State of each coordinate that is projected.
+        State of each projected coordinate.
     coordinates : Call
-        Function of x, z, p, time and constants: where the constraints have these.
+        Function of x, z, p, time and constants: the projected coordinates on the constraints.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
     kept : array of int, shape (2, n)
-        Coordinates among the algebraic unknowns, and the states that stand for them.
+        Projected coordinates among the algebraic unknowns, and the states from which they are projected.
     pattern : csc_matrix, shape (size, nx)
-        Sparsity of the Jacobian: all its entries are 0.
+        Sparsity pattern of the Jacobian, with all entries 0.
     """
 
     def __init__(self, reduced: ReducedModel) -> None:
@@ -64,7 +64,7 @@ class Constraints:
         self.multipliers = np.array([algebraic[m] for m in multipliers], dtype=int)
         self.lowest = np.array([own[0] for own in self.rows], dtype=int)
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
-        # Without projections all equations that close loops are solved as they are.
+        # Without projections there are no constraints here: the loop closures stay equations of the DAE.
         self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
         self.of_loops = [k for k, c in zip(self.closures, reduced.flat.loops.closures, strict=False) if c.loop >= 0]
         said = {place[c.row]: c.statement for c in reduced.flat.loops.closures if place}
@@ -107,12 +107,12 @@ class Constraints:
         return value, with_entries(self.pattern, entries)
 
     def values(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return residuals, and the entries of their Jacobian as `pattern` has them."""
+        """Return residuals, and the entries of their Jacobian in the order of `pattern`."""
         value, entries = self._call(x, p, t, constants)
         return value.copy(), entries.copy()
 
     def terms(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the size of what adds up in each residual, and in each entry, as `values` has them: see `rounding.terms`."""
+        """Return round-off scales of the results of `values`, see `rounding.terms`."""
         value, entries = self._terms(x, p, t, constants)
         return value.copy(), entries.copy()
 
@@ -125,7 +125,7 @@ class Constraints:
         return Call(ca.Function("terms", arguments, sizes))
 
     def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
-        """Jacobian of the constraints by the coordinates that each holds at its level, at n points, as `entries` has it.
+        """Return the Jacobian of each constraint by the coordinates of its own level, in the order of `entries`, at n points.
 
         Parameters
         ----------
@@ -147,21 +147,21 @@ class Constraints:
         return vectorized(self._held)
 
     def counting(self, closures: np.ndarray) -> np.ndarray:
-        """Which residuals count, where closures do that are 1, and those do not that are 0, see `Constants`."""
+        """Return which residuals are independent, from the flags of the closures, see `Constants`."""
         counts = np.ones(self.size, dtype=bool)
         for constraint, closure in zip(self.closures, closures, strict=True):
             counts[list(self.rows[constraint])] = closure > 0
         return counts
 
     def project(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
-        """Return the states with every coordinate where the constraints have it."""
+        """Return the states with all projected coordinates on the constraints."""
         projected = x.copy()
         if self.size:
             projected[self.places] = self.coordinates(x, z, p, t, constants)[0]
         return projected
 
     def complete(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
-        """Return the algebraic unknowns with all those in place that follow from the states."""
+        """Return the algebraic unknowns with those that follow explicitly from the states updated."""
         z = z.copy()
         z[self._follows] = self._following(x, p, t, constants)[0]
         z[self.kept[0]] = x[self.kept[1]]

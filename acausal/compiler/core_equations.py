@@ -1,4 +1,4 @@
-"""The equations of a model as the core takes them."""
+"""The equations of a model as tapes of the core."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from acausal.language.functions import time
 
 @memoized
 def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equations:
-    """Return the equations that are integrated.
+    """Return the integrated equations as a tape.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equatio
 
 @memoized
 def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
-    """Return the laws of time alone that the equations hold, of x, z, time, p and constants; None if there are none.
+    """Return the subexpressions of the equations that depend on time, p and constants alone; None if there are none.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
 
 @memoized
 def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
-    """Return the equations that determine algebraic unknowns and all that they need, of p, constants, x, z and time.
+    """Return the square system, of p, constants, x, z and time, of algebraic unknowns and all on which they depend.
 
     Parameters
     ----------
@@ -66,12 +66,12 @@ def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
 
 @memoized
 def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
-    """Return how watched excesses move, of p, constants, x, z, time and the rates of some algebraic unknowns.
+    """Return the watched excesses and their rates, of p, constants, x, z, time and the rates of some algebraic unknowns.
 
     Returns
     -------
     square : Square or None
-        The equations of these rates; None where there are no such unknowns.
+        The equations of these rates; None if there are no such unknowns.
     tape : Tape
         Watched excesses, then their rates.
     """
@@ -87,9 +87,9 @@ def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
 
 @memoized
 def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled | None:
-    """Return the model as the core runs it over instants that discrete variables plan; None where it does not.
+    """Return the model for the fast loop over scheduled events of the core; None if it does not apply.
 
-    That is where nothing is planned, where what is differentiated may jump, and without states.
+    It needs states and scheduled events, and no differentiated expression that could jump.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The conditions that are watched during an integration, and what happens when they change, as numbers."""
+"""Event conditions of a model as numerical functions: indicators, time events, and the jumps that they trigger."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from acausal.symbols import scalars, stacked
 
 
 class EventConditions:
-    """Guards of a model: those of its switches, then one for each `when`.
+    """The guards of a model: those of its switches, then one for each `when`.
 
     Parameters
     ----------
@@ -37,13 +37,13 @@ class EventConditions:
     excess : casadi.SX
         Excess of each guard, in x, z, parameters, time and constants.
     timed : list of int
-        Guards that compare time and parameters and nothing else: their instants are found before.
+        Guards that compare time with parameters alone: their instants are known before the run.
     bent : list of int
-        Those of them with a comparison that is not linear in time.
+        The timed guards with a comparison that is nonlinear in time.
     watched : list of int
-        All others.
+        All other guards: their excesses are event indicators.
     n_switches, n_discretes : int
-        Switches come first in the vector of constants, discrete variables next.
+        Number of switches and of discrete variables, in their order in the vector of constants.
     """
 
     def __init__(self, reduced: ReducedModel, start: ca.Function) -> None:
@@ -58,7 +58,7 @@ class EventConditions:
         for guard, excess in zip(self.guards, scalars(self.excess), strict=True):
             if any(s.element_hash() not in known for s in ca.symvar(excess)):
                 raise DeclarationError(
-                    f"{guard.origin}: the condition holds a derivative that no equation has. Declare a variable for "
+                    f"{guard.origin}: the condition contains a derivative that occurs in no equation. Declare a variable for "
                     "it, such as a: Scalar = variable(...) with a == der(v), and compare that."
                 )
         decided, bent, compared = time_comparisons(reduced, [g.condition for g in self.guards])
@@ -86,12 +86,12 @@ class EventConditions:
 
     @cached_property
     def laws(self) -> SetValuedLaws:
-        """Set-valued laws."""
+        """The set-valued laws of the model."""
         return SetValuedLaws(self.reduced, self.arguments)
 
     @cached_property
     def breaks(self) -> Call:
-        """Function of parameters: break times, one of each linear comparison of the timed guards."""
+        """Function of parameters: break times, one for each linear comparison of the timed guards."""
         p, excess = self.reduced.p, self._compared
         if not excess.numel():
             return Call(ca.Function("breaks", [p], [ca.SX(0, 1)]))
@@ -100,18 +100,18 @@ class EventConditions:
 
     @cached_property
     def curved(self) -> list[tuple[ca.Function, ca.Function, bool, Origin]]:
-        """Comparisons of the timed guards that are not linear in time.
+        """Comparisons of the timed guards that are nonlinear in time.
 
-        Each as functions of parameters and time, its excess and the derivative of that, whether it holds where the excess
-        is 0, and where it is stated.
+        For each: excess and its derivative as functions of parameters and time, whether the comparison includes equality,
+        and its origin.
         """
         return [(*functions(self.reduced, excess), inclusive, origin) for excess, inclusive, origin in self._bent]
 
     @cached_property
     def holds_at(self) -> Call:
-        """Function of parameters, time and a span: 1 for each timed guard that holds, nan where it has no value.
+        """Function of parameters, time and a span: truth value of each timed guard, NaN where it has no value.
 
-        A comparison that would be 0 within the span of time is 0.
+        An excess with a root within the span of time counts as 0.
         """
         near, excess = ca.SX.sym("near"), self._all[self._decided]
         reach = ca.fabs(ca.jtimes(excess, time.sx, ca.SX(1))) * near
@@ -126,42 +126,42 @@ class EventConditions:
 
     @cached_property
     def planned(self) -> Call:
-        """Function of parameters and constants: instants of comparisons of time with discrete variables, until these change."""
+        """Function of parameters and constants: scheduled instants, where time passes a discrete variable."""
         return Call(ca.Function("planned", [self.reduced.p, self.reduced.constants], [self._planned[1]]))
 
     @cached_property
     def smooth(self) -> Call:
-        """Function of parameters and constants: instants of comparisons, linear in time, of laws that are declared smooth."""
+        """Function of parameters and constants: instants at which laws declared smooth switch, if linear in time."""
         r = self.reduced
         compared = r.running.resolve(stacked(promise.compared for promise in r.flat.discontinuities.promises))
         return Call(ca.Function("smooth", [r.p, r.constants], [planned_times(r, compared)[1]]))
 
     @property
     def plans(self) -> list[tuple[int, bool]]:
-        """For each entry of `planned` the guard that holds the comparison, and whether this holds where it is 0."""
+        """For each entry of `planned`: the guard of the comparison, and whether the comparison includes equality."""
         return [self._open[k][1:] for k in self._planned[0]]
 
     @cached_property
     def clocked(self) -> list[bool]:
-        """Whether each watched guard compares time with discrete variables alone: it changes at planned instants, exactly."""
+        """Whether each watched guard compares time with discrete variables alone, so that it changes at scheduled instants."""
         planned = Counter(k for k, _ in self.plans)
         return [planned[k] == self._compared_in[k] for k in self.watched]
 
     @cached_property
     def _compared_in(self) -> Counter[int]:
-        """Number of comparisons of each watched guard that the clock does not decide."""
+        """Number of comparisons in each watched guard."""
         return Counter(k for _, k, _ in self._open)
 
     @cached_property
     def lone(self) -> list[int]:
-        """Those of them with one comparison, of discrete variables that no other statement changes: they plan what is next."""
+        """Clocked guards with one comparison, with discrete variables that only they change: each schedules its next instant."""
         own = [{jump.discrete for jump in guard.jumps} for guard in self.guards]
         changed = Counter(discrete for jumps in own for discrete in jumps)
         constants = {s.element_hash(): k - self.n_switches for k, s in enumerate(scalars(self.reduced.constants))}
         excess, found = scalars(self.excess), []
         for k, clocked in zip(self.watched, self.clocked, strict=True):
             held = {constants[h] for h in (s.element_hash() for s in ca.symvar(excess[k])) if h in constants}
-            # Switches are among the constants, too, and let a condition become false again.
+            # Switches have negative numbers here and so fail the subset test: they could make the condition false again.
             alone = held <= own[k] and all(changed[discrete] == 1 for discrete in held)
             if clocked and self._compared_in[k] == 1 and held and alone:
                 found.append(k)
@@ -173,7 +173,10 @@ class EventConditions:
 
     @cached_property
     def estimate(self) -> Call:
-        """Function of parameters, time and a later time: switches and discrete variables, those of the clock at the latter."""
+        """Function of parameters, time and a later time: estimates of switches and discrete variables.
+
+        The switches of timed guards are evaluated at the later time, everything else at start values.
+        """
         r, later = self.reduced, ca.SX.sym("later")
         head = self._head()
         starts = self._start(r.p, time.sx) if head.numel() else ca.SX(0, 1)
@@ -187,7 +190,7 @@ class EventConditions:
 
     @cached_property
     def start(self) -> Call:
-        """Function of x, z, parameters, time and constants: switches and discrete variables that fit these values."""
+        """Function of x, z, parameters, time and constants: initial switches and discrete variables at these values."""
         return Call(ca.Function("start", self.arguments, [ca.densify(self._head())]))
 
     def _head(self) -> ca.SX:
@@ -198,11 +201,11 @@ class EventConditions:
 
     @cached_property
     def continuous(self) -> Call:
-        """Function of x, z, parameters, time, constants, new constants, nominal changes and a time: what must not jump.
+        """Function that checks that differentiated expressions do not jump.
 
-        That is what is differentiated. All unknowns are those before the instant; the switches of the entries themselves
-        take the new values. The second result is how much the nominal changes, and that time, change each entry; the third
-        one the size of its terms, as of `terms`.
+        Arguments: x, z, parameters, time and constants before the event, new constants, nominal changes of the unknowns and a
+        time span. Results: the expressions with the new constants; how much the nominal changes and the span change each;
+        and the size of its terms, see `rounding.terms`.
         """
         r = self.reduced
         new, unknowns = ca.SX.sym("new", r.constants.numel()), ca.vertcat(r.x, r.z)
@@ -216,7 +219,7 @@ class EventConditions:
 
     @property
     def differentiated(self) -> list[Origin]:
-        """Where each entry of `continuous` comes from."""
+        """Origin of each entry of `continuous`."""
         return [origin for _, origin in self._entries]
 
     @cached_property
@@ -225,16 +228,18 @@ class EventConditions:
 
     @cached_property
     def scale(self) -> Call:
-        """Function of x, z, parameters, time, constants and nominal changes: how much these change each watched excess."""
+        """Function of x, z, parameters, time, constants and nominal changes: nominal change of each watched excess."""
         J = ca.jacobian(self.excess[self.watched], ca.vertcat(self.reduced.x, self.reduced.z))
         nominal = ca.SX.sym("nominal", J.shape[1])
         return Call(ca.Function("scale", [*self.arguments, nominal], [ca.densify(ca.fabs(J) @ nominal)]))
 
     @cached_property
     def motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Watched excesses, their rates with z held, their Jacobian by the z in them, and what determines the rates of these.
+        """Terms of the total time derivatives of the watched excesses.
 
-        The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
+        Returns the excesses g, their derivatives along x and time with z constant, dg/dz for the z they depend on, and
+        for the equations h(x, z, t) = 0 of these z the Jacobian dh/dz and their derivatives with z constant. Then
+        dg/dt = g_t - g_z h_z^-1 h_t.
         """
         r, excess = self.reduced, self.excess[self.watched]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
@@ -245,12 +250,12 @@ class EventConditions:
 
     @cached_property
     def needs(self) -> set[int]:
-        """Algebraic unknowns that watched excesses and their rates need."""
+        """Algebraic unknowns on which the watched excesses and their rates depend."""
         return self._dependence.inside(ca.veccat(*self.motion))
 
     @cached_property
     def along(self) -> Vectorized:
-        """Function of x, z, parameters, time and constants: watched excesses, then their time derivatives."""
+        """Function of x, z, parameters, time and constants: watched excesses, then their total time derivatives."""
         excess, direct, by_z = self.motion[:3]
         if not by_z.shape[1]:
             return Vectorized(ca.Function("rates", self.arguments, [ca.vertcat(excess, direct)]))
@@ -260,7 +265,10 @@ class EventConditions:
         return Vectorized(ca.Function("rates", inputs, [ca.vertcat(value, rate - J @ ca.solve(own, right, "qr"))]))
 
     def jump(self, guard: int) -> tuple[Call, list[tuple[bool, int]]]:
-        """Function of x, z, parameters, time and constants: new values; and for each whether it is a state, and which."""
+        """Return the values after a jump as a function of x, z, parameters, time and constants, and their targets.
+
+        A target is a pair: whether it is a state or a discrete variable, and its number.
+        """
         return self._jumps[guard]
 
     @cached_property
@@ -275,7 +283,7 @@ class EventConditions:
         return made
 
     def _place(self, guard: Guard, jump: Jump) -> tuple[tuple[bool, int], ca.SX]:
-        """Where a jump goes in the states or discrete variables, and what stands there afterwards."""
+        """Return the target of a jump, as in `jump`, and its value afterwards."""
         target, value = self._resolve([jump.target], unprojected=True), self._resolve([jump.value])
         if jump.discrete is not None:
             return (False, jump.discrete), value
@@ -293,5 +301,5 @@ class EventConditions:
         return (True, k), x[k] + (value - target) / slopes[0]
 
     def check(self) -> None:
-        """Raise DeclarationError if something jumps that cannot jump."""
+        """Raise DeclarationError if a jump has no state or discrete variable as its target."""
         _ = self._jumps

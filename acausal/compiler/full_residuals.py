@@ -1,4 +1,4 @@
-"""All equations of a model in all its unknowns, those that are solved explicitly too: for words about what fails."""
+"""All equations of a model in all its unknowns, explicitly solved ones included, for the diagnosis of failures."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ EQUATION, START, EVENT = "equation", "initial condition", "condition"
 
 @dataclass(frozen=True)
 class Row:
-    """An equation, an initial condition or the condition of an event: what is evaluated, and where it is stated."""
+    """An equation, an initial condition or an event condition: its expression and its origin."""
 
     expression: Any
     origin: Origin
@@ -30,23 +30,23 @@ class Row:
 
 @dataclass(frozen=True)
 class FullResiduals:
-    """All rows of a model.
+    """All equations, initial conditions and event conditions of a model as numerical functions.
 
     Attributes
     ----------
     rows : list of Row
-        The equations first, then what is assigned in them, initial conditions and conditions of events.
+        The equations first, then explicitly assigned expressions, initial conditions and event conditions.
     names : tuple of str
-        Of the unknowns.
+        Names of the unknowns.
     solved : array of int
         Unknowns that are not states, as many as equations.
-    unknowns, values, slopes : Call
-        The unknowns, from the arguments of the compiled model; values of all rows, and entries of the Jacobian of the
-        equations by the unknowns, from unknowns, parameters, time, constants and the flag of the initial system.
+    unknowns : Call
+        The unknowns as a function of the arguments of the compiled model.
+    values, slopes, required : Call
+        Functions of `arguments`: values of all rows, nonzeros of the Jacobian of the equations by the unknowns, and values
+        of the requirements on variables at the start.
     arguments : list of casadi.SX
-        Arguments of the last two.
-    required : Call
-        What components require of variables at the start, from the same.
+        Unknowns, parameters, time, constants and the flag of the initial system.
     """
 
     rows: list[Row]
@@ -59,11 +59,11 @@ class FullResiduals:
     required: Call
 
     def jacobian(self, *values: Any) -> np.ndarray:
-        """Return the Jacobian of the equations by the unknowns that are solved for."""
+        """Return the dense Jacobian of the equations by the unknowns that are not states."""
         return self.sensitivities(*values)[:, self.solved].toarray()
 
     def sensitivities(self, *values: Any) -> scipy.sparse.csc_matrix:
-        """Return the Jacobian of the equations by all unknowns."""
+        """Return the sparse Jacobian of the equations by all unknowns."""
         pattern = self.slopes.function.sparsity_out(0)
         entries = self.slopes(*values)[0].copy(), np.array(pattern.row()), np.array(pattern.colind())
         return scipy.sparse.csc_matrix(entries, shape=pattern.shape)
@@ -71,7 +71,7 @@ class FullResiduals:
 
 @memoized
 def full_residuals(compiled: Any) -> FullResiduals:
-    """Make the functions of all rows of a compiled model."""
+    """Build the residual functions of a compiled model."""
     r: ReducedModel = compiled.reduced
     arguments = [r.unknowns, r.p, time.sx, r.constants, initial.sx]
     equations = [Row(e, origin_of(r, k), EQUATION) for k, e in enumerate(r.residuals)]
@@ -94,13 +94,13 @@ def full_residuals(compiled: Any) -> FullResiduals:
 
 
 def _remaining(r: ReducedModel, entries: list[ca.SX]) -> ca.SX:
-    """A column of expressions of the model in unknowns that remain."""
+    """Return a column of expressions with eliminated unknowns substituted."""
     was, becomes = r.flat.unknowns.eliminated
     return dense(ca.substitute([stacked(entries)], [was], [becomes])[0]) if entries else ca.SX(0, 1)
 
 
 def origin_of(r: ReducedModel, row: int) -> Origin:
-    """Where an equation, or the one of which it is a derivative, is stated."""
+    """Return the origin of an equation, or of the equation of which it is a time derivative."""
     origins, differentiated = r.flat.equations.origins, r.plan.differentiated
     while len(origins) <= row < len(origins) + len(differentiated):
         row = differentiated[row - len(origins)]
@@ -108,14 +108,14 @@ def origin_of(r: ReducedModel, row: int) -> Origin:
 
 
 def _assigned(r: ReducedModel) -> list[Row]:
-    """What is assigned: solving for an unknown divides by its coefficient."""
+    """Return the explicitly assigned expressions: solving for an unknown divides by its coefficient, which may vanish."""
     pairs = (*r.plan.assigned, *r.plan.observed)
     values = scalars(r.definitions[1]) if pairs else []
     return [Row(value, origin_of(r, e), EQUATION) for value, (_, e) in zip(values, pairs, strict=True)]
 
 
 def _conditions(r: ReducedModel) -> list[Row]:
-    """Initial conditions, and conditions of events and switches."""
+    """Return initial conditions, and conditions of events and switches."""
     flat = r.flat
     found = [Row(c.residual, c.origin, START) for c in flat.equations.initial]
     guards = flat.discontinuities.guards

@@ -1,4 +1,4 @@
-"""What a compiled model was made from, and how it is made again when a pickle of it is read."""
+"""The source of a compiled model, from which unpickling compiles it again."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from acausal.language.component import Component
 
 
 class Source(NamedTuple):
-    """The arguments of `compile`, and that itself.
+    """The arguments of `compile`, and the function itself.
 
     Parameters
     ----------
@@ -32,17 +32,17 @@ class Source(NamedTuple):
 
 
 def pickled(source: Source | None) -> tuple[Any, ...]:
-    """Return what a pickle of a compiled model holds.
+    """Return what `__reduce__` of a compiled model returns.
 
     Parameters
     ----------
     source : Source or None
-        What it was compiled from, None where that is not known.
+        What it was compiled from; None if unknown.
 
     Raises
     ------
     ExportError
-        If another process could not import the model.
+        If another process could not import the model's classes.
     """
     if source is None:
         raise ExportError(
@@ -65,7 +65,7 @@ def pickled(source: Source | None) -> tuple[Any, ...]:
 
 
 def _templates(value: Any) -> Iterator[Component]:
-    """Yield a model that is not built, and the components that were given to it."""
+    """Yield a model before instantiation, and the components passed to it."""
     if isinstance(value, Component):
         yield value
         for given in value._values.values():

@@ -35,16 +35,16 @@ class Settable:
     def __init__(self, flat: FlatModel) -> None:
         self.own, self.tree = flat.parameters, flat.tree
         self.requirements = Requirements(flat.tree, flat.parameters.symbols)
-        self._accepted: bytes | None = None  # the values that were accepted last
+        self._accepted: bytes | None = None  # the last values that passed the checks
 
     def values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
-        """Return the values of all free parameters after some changes.
+        """Return the values of all free parameters after the changes.
 
         Raises
         ------
         DeclarationError
-            For an unknown name, a structural parameter, a structural zero, a parameter that follows others, or a
-            value out of its limits.
+            For an unknown name, a structural parameter, a structural zero, a parameter bound to others, or a value out of
+            its limits.
         """
         values = self.own.values.copy()
         for path, value in (changes or {}).items():
@@ -56,7 +56,7 @@ class Settable:
         return values
 
     def value(self, path: str) -> Any:
-        """Return the value of a parameter, as a number or an array, or that of a structural parameter or an effect.
+        """Return the value of a parameter (a number or an array), a structural parameter or an effect.
 
         Raises
         ------
@@ -74,7 +74,7 @@ class Settable:
             return value
         known = {s.element_hash() for s in scalars(self.own.symbols)}
         if any(s.element_hash() not in known for s in ca.symvar(value.sx)):
-            raise DeclarationError(f"`{path}` is a variable, whose values a result has: result[{path!r}].")
+            raise DeclarationError(f"`{path}` is a variable; read its values with result[{path!r}].")
         found = Call(ca.Function("value", [self.own.symbols], [ca.densify(value.sx)]))(self.values(None))[0]
         return found.reshape(value.shape, order="F").copy() if value.shape else float(found[0])
 
@@ -128,7 +128,7 @@ class Settable:
                 )
 
     def _unit(self, path: str) -> Any:
-        """Unit of a parameter, or of an entry of one."""
+        """Return the unit of a parameter, or of one of its entries."""
         name, _, entry = path.removesuffix("]").rpartition("[") if path not in self._fields else (path, "", "")
         unit = self._fields[name].unit
         return unit[int(entry.split(",")[0])] if entry and isinstance(unit, tuple) else unit
@@ -163,7 +163,7 @@ class Settable:
 
     @cached_property
     def _limits(self) -> tuple[Call, np.ndarray, np.ndarray, np.ndarray]:
-        """Function of the limited entries, and for each its owner, least value and whether it must be positive."""
+        """The limited entries as a function of the parameters; for each its owner, minimum, and whether it must be positive."""
         own = self.own
         column = ca.vertcat(*[dense(vec(sx)) for _, sx, _ in own.limits])
         owners = np.repeat(np.arange(len(own.limits)), [sx.numel() for _, sx, _ in own.limits])

@@ -1,4 +1,4 @@
-"""Set-valued laws of a model as numbers: speeds, their rates, limits, and how the rates respond to the shares."""
+"""Set-valued laws of a model as numerical functions: speeds, rates, limits, and sensitivities of the rates to the shares."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class LawValues:
     Attributes
     ----------
     speed, rate, limit : arrays, shape (n,)
-        Of each law.
+        Speed, its rate, and the limit of each law.
     size : array, shape (n,)
-        How much nominal changes of the unknowns change each speed.
+        Change of each speed under nominal changes of the unknowns.
     by_share : array, shape (n, n)
-        Derivatives of the rates by the shares, the algebraic unknowns held.
+        Derivatives of the rates by the shares with the algebraic unknowns constant.
     by_unknown, equations : sparse matrices, shapes (n, nz), (nz, n)
         Derivatives of the rates by the algebraic unknowns, and of the algebraic equations by the shares.
     """
@@ -56,7 +56,7 @@ class SetValuedLaws:
     Attributes
     ----------
     places : array of int, shape (n, 5)
-        Places of `mode`, `offset`, `shared`, `share` and `slip` among the discrete variables.
+        Positions of `mode`, `offset`, `shared`, `share` and `slip` among the discrete variables.
     """
 
     def __init__(self, reduced: ReducedModel, arguments: list[ca.SX]) -> None:
@@ -69,11 +69,11 @@ class SetValuedLaws:
 
     @property
     def origins(self) -> list[Origin]:
-        """Where each law is stated."""
+        """Origin of each law."""
         return [law.origin for law in self._laws]
 
     def __call__(self, nominal: np.ndarray, *arguments: Any) -> LawValues:
-        """Return the values for nominal changes of the unknowns, and for x, z, parameters, time and constants."""
+        """Evaluate at nominal changes of the unknowns, x, z, parameters, time and constants."""
         speed, rate, limit, size, by_share, *slopes = (value.copy() for value in self._call(*arguments, nominal))
         matrices = []
         for k, entries in enumerate(slopes, 5):

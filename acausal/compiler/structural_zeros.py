@@ -1,4 +1,4 @@
-"""Parameters whose value 0 removes terms that a model needs: where it is incomplete, they are tried with other values."""
+"""Diagnosis of singular models: find the zero parameters whose terms would make the model complete, by trial."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from acausal.language.expression import Expr
 from acausal.reduce import plan_of
 from acausal.symbols import scalars, stacked, vec
 
-MOST, SECONDS = 40, 5.0  # parameters that are tried, and how long
-SHORT = 3  # unknowns that are named
+MOST, SECONDS = 40, 5.0  # limits of the search: parameters that are tried, and seconds
+SHORT = 3  # unknowns that the message names
 
 
 @dataclass(frozen=True)
 class _Zero:
-    """A parameter that is 0, as a whole or on its diagonal: who has it, another value, and the remedy."""
+    """A parameter that is 0, as a whole or on its diagonal: its component, a value to try, and the remedy."""
 
     component: Component
     whole: bool
@@ -38,7 +38,7 @@ class _Zero:
 def remedy_for_zeros(
     model: Component, parameters: Mapping[str, Any] | None, flat: FlatModel, error: AcausalError
 ) -> str:
-    """Return a line that names the parameters whose zeros leave a model incomplete, "" if they are not the cause.
+    """Return a message on the parameters whose zeros leave a model incomplete, "" if they are not the cause.
 
     Parameters
     ----------
@@ -47,15 +47,15 @@ def remedy_for_zeros(
     parameters : mapping of str to value or None
         Values by path that replace those of the model.
     flat : FlatModel
-        What was made of both.
+        The flattened model.
     error : AcausalError
-        Why its structure was refused, raised while a StructuralSingularity was handled.
+        The structural error, raised while a StructuralSingularity was handled.
     """
     zeros = _zeros(flat, getattr(error.__context__, "under", ()))
     ends, completed = clock.perf_counter() + SECONDS, dict[tuple[str, ...], FlatModel]()
 
     def lacking(*tried: str) -> float:
-        """How many equations the model lacks with other values of these, infinite where it rejects them."""
+        """Return how many equations the model lacks with trial values of these, infinity if it rejects them."""
         try:
             tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path].other for path in tried}})
             plan_of(tried_flat)
@@ -68,7 +68,7 @@ def remedy_for_zeros(
 
     found = {path: lacking(path) for path in zeros if clock.perf_counter() < ends}
     alone = [path for path, count in found.items() if count == 0]
-    # Two factors of one product help together only.
+    # Two factors of one product must be nonzero together.
     needed = [path for path, count in found.items() if count < _lacking(error)] or [
         p for p in found if found[p] < np.inf
     ]
@@ -83,12 +83,12 @@ def remedy_for_zeros(
 
 
 def _lacking(error: AcausalError) -> int:
-    """How many equations a model lacks whose structure was refused, in its under-determined parts."""
+    """Return how many equations the under-determined part of a singular model lacks."""
     return sum(len(part.variables) - len(part.equations) for part in getattr(error.__context__, "under", ()))
 
 
 def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
-    """The message: what each way gained that all of them did, and the remedies, of which one is enough if `alone`."""
+    """Return the message: the unknowns that all remedies determine, and the remedies; one is enough if `alone`."""
     common = [words for name, words in gained[0].items() if all(name in other for other in gained)]
     what = ", ".join(list(dict.fromkeys(common or gained[0].values()))[:SHORT])
     head = f"Nothing determines {what}: a" if what else "A"
@@ -102,7 +102,7 @@ def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
 
 
 def _gained(flat: FlatModel, completed: FlatModel, zeros: list[_Zero]) -> dict[str, str]:
-    """What terms hold that a model lacked: unknowns, and what they are called where the zeros are."""
+    """Return the unknowns that gained terms, by name, with their descriptions in the components of the zeros."""
     before, after = _inside(flat), _inside(completed)
     new = {name for origin, names in after.items() for name in names - before.get(origin, set())}
     wanted = {name.removeprefix("der(").removesuffix(")") for name in new}
@@ -119,7 +119,7 @@ def _gained(flat: FlatModel, completed: FlatModel, zeros: list[_Zero]) -> dict[s
 
 
 def _inside(flat: FlatModel) -> dict[str, set[str]]:
-    """Names of unknowns in the equations of each place."""
+    """Return the names of the unknowns in the equations of each origin."""
     names = {s.element_hash(): n for s, n in zip(scalars(flat.unknowns.symbols), flat.unknowns.names, strict=True)}
     found: dict[str, set[str]] = {}
     for residual, origin in zip(scalars(flat.equations.residuals), flat.equations.origins, strict=True):
@@ -129,16 +129,16 @@ def _inside(flat: FlatModel) -> dict[str, set[str]]:
 
 
 def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
-    """Paths of parameters near under-determined parts that are 0, or matrices with a 0 on the diagonal, each with a remedy."""
+    """Find zero parameters, and matrices with a 0 on the diagonal, near the under-determined parts."""
     parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
     touched = {names[v] for part in parts for v in part.variables if v < len(names)}
     touched |= {origins[e].path for part in parts for e in part.equations if e < len(origins)}
     moved = _moved(flat, {v for part in parts for v in part.variables})
     set_, some = (
-        {re.sub(r"\[[\d,]+\]$", "", name) for name in own}  # parameters of entries
+        {re.sub(r"\[[\d,]+\]$", "", name) for name in own}  # an entry counts for its parameter
         for own in (flat.parameters.structural_zeros, flat.parameters.names)
     )
-    # Where no equation is missing, terms of single unknowns are not what is.
+    # If no equation is missing, a parameter that is 0 as a whole is not the cause.
     lacks = not parts or any(len(part.equations) < len(part.variables) for part in parts)
     found = {}
     for component in walk(flat.tree):
@@ -159,7 +159,7 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
 
 
 def _moved(flat: FlatModel, unknowns: set[int]) -> set[str]:
-    """Paths of the components with a variable that is an alias of some unknowns or of their derivatives."""
+    """Return the paths of components with a variable that is an alias of the unknowns or of their derivatives."""
     own, up = scalars(flat.unknowns.symbols), flat.unknowns.derivative
     reached = [v for v in unknowns if v < len(own)]
     reached += (up[v] for v in reached if up[v] >= 0)
@@ -176,14 +176,14 @@ def _is_variable(component: Component, name: str) -> bool:
 
 
 def _is_singular(value: Any) -> bool:
-    """Whether a value is a matrix with a 0 on its diagonal, as the inertia of a thin rod is."""
+    """Return whether a value is a matrix with a 0 on its diagonal, such as the inertia of a thin rod."""
     if not isinstance(value, Expr) or len(value.shape) != 2 or value.sx.size1() != value.sx.size2():
         return False
     return any(value.sx[k, k].is_zero() for k in range(value.sx.size1()))
 
 
 def _follows(path: str, found: Mapping[str, _Zero]) -> bool:
-    """Whether a parameter of a part is given by one of the same name that was found."""
+    """Return whether a found parameter of the same name in an owner determines this parameter of a part."""
     name = path.rpartition(".")[2]
     return any(
         path.startswith(f"{zero.component._path}.") and whole.rpartition(".")[2] == name
@@ -192,7 +192,7 @@ def _follows(path: str, found: Mapping[str, _Zero]) -> bool:
 
 
 def _other(shape: tuple[int, ...]) -> np.ndarray:
-    """Another value than 0: a unit matrix, a unit vector or 1."""
+    """Return a nonzero trial value: a unit matrix, a unit vector or 1."""
     value = np.zeros(shape)
     value[tuple(np.arange(min(shape)) for _ in shape) if len(shape) == 2 else (0,) * len(shape)] = 1.0
     return value
