@@ -1,4 +1,4 @@
-"""Several results in one moving picture."""
+"""animate(): several results in one animation."""
 
 from __future__ import annotations
 
@@ -27,31 +27,31 @@ def animate(
     title: str = "",
     deformation: float = 1.0,
 ) -> None:
-    """Write the moving picture of several runs, side by side or one over the other, so that it is seen what differs.
+    """Animate several runs, side by side or overlaid, to compare them.
 
     Parameters
     ----------
     results : mapping of str to Result
-        By the names that are shown.
+        Results by the names to show.
     path : str or Path
-        Name of the file, its ending as of `Result.animate`.
+        Name of the file, with a suffix as in `Result.animate`.
     frames : int
-        Longer results are thinned to about so many times.
+        Approximate number of frames to which longer results are thinned.
     plots : sequence of str, Path or Expr
-        What is drawn under the picture; the outputs if there is none.
+        Quantities plotted below the picture; the outputs if empty.
     values : sequence of str
-        What beams can be coloured by besides what costs nothing, as of `Result.animate`.
+        Extra quantities by which beams can be coloured, as in `Result.animate`.
     title : str
-        Of the picture; the names of the models if not given.
+        Title of the picture; the names of the models if not given.
     deformation : float
         Scale of deformations, 1 to 1000; the page can change it.
 
     Raises
     ------
     ExportError
-        If the file cannot be written, or its ending tells no kind of picture; before anything is computed.
+        If the file cannot be written, or its suffix is unknown; before anything is computed.
     DeclarationError
-        If the results are none, or one has no time, no model any more, nothing to be seen, or no such values.
+        If there is no result, or one of them has no times, no model, nothing visible, or no such values.
 
     Examples
     --------

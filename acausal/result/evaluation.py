@@ -1,4 +1,4 @@
-"""Values of quantities, all in one call."""
+"""Evaluation of several quantities in one call."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ def read(
     Parameters
     ----------
     quantities : list of Quantity
-        Expressions of the model, or places in what was kept.
+        Expressions of the model, or columns of a snapshot.
     evaluate : callable
-        As of a result, for the expressions.
+        Evaluator of the result, for the expressions.
     snapshot : Snapshot, optional
-        What the places are of.
+        The snapshot to which the columns belong.
     times : int
         Number of times.
     """

@@ -1,4 +1,4 @@
-"""A result from arrays: of a method that is none of the engine's, read like any other."""
+"""Results made from arrays, as other methods compute them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from acausal.result.lookup import Quantity
 from acausal.result.snapshot import Snapshot
 from acausal.units import parse as unit_of
 
-# Of a result: its values by path, as columns of shape (times, n), in column-major order.
+# Values by path: the quantity, and its entries in column-major order, shape (times, n).
 Columns = Mapping[str, tuple[Quantity, np.ndarray]]
 
 
@@ -23,7 +23,7 @@ def checked_times(time: Any) -> np.ndarray:
     Raises
     ------
     DeclarationError
-        If they are none.
+        If they are not increasing finite numbers.
     """
     if wrong := refused(time):
         raise DeclarationError(f"the time is {wrong}")
@@ -39,7 +39,7 @@ def checked_times(time: Any) -> np.ndarray:
 def checked_columns(
     times: np.ndarray, values: Any, known: Collection[str] = ()
 ) -> dict[str, tuple[Quantity, np.ndarray]]:
-    """Return each array that is given by its path as columns, with what it is called and its unit.
+    """Return each given array as a quantity with its unit, and as columns.
 
     Parameters
     ----------
@@ -48,12 +48,12 @@ def checked_columns(
     values : mapping of str to (array_like, str)
         See `result_of`.
     known : collection of str
-        Paths of which the unit is known, and need not be given; it is "" then.
+        Paths whose unit is known and may be left out; it is "" then.
 
     Raises
     ------
     DeclarationError
-        If something else is given.
+        If a path, an array, a shape or a unit is invalid.
     """
     if not isinstance(values, Mapping):
         raise DeclarationError('values are arrays by path with their units: {"body.tip.v": (array, "m/s")}')
@@ -83,7 +83,7 @@ def checked_columns(
 
 
 def snapshot_of(columns: Columns, times: int, title: str = "") -> Snapshot:
-    """Return arrays as what is kept of a result.
+    """Return arrays as a snapshot.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def snapshot_of(columns: Columns, times: int, title: str = "") -> Snapshot:
     times : int
         Number of times.
     title : str
-        What the arrays are of.
+        Title of the result.
     """
     quantities, blocks, first = {}, [np.empty((times, 0))], 0
     for path, (quantity, block) in columns.items():
@@ -109,7 +109,7 @@ def checked_outputs(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, 
     Raises
     ------
     DeclarationError
-        If one is not among the names of what there is.
+        If one is not among the known names.
     """
     if isinstance(outputs, str) or not all(isinstance(name, str) for name in outputs):
         raise DeclarationError(f'outputs are a list of paths, ["body.tip.v"], not {outputs!r}')

@@ -1,4 +1,4 @@
-"""What is said of values that are no numbers."""
+"""The warning about values that are not finite."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from acausal.result.lookup import Quantity
 
 
 def invalid_values(quantity: Quantity, array: np.ndarray, time: np.ndarray, why: Callable[[int], str] | None) -> str:
-    """Describe where a quantity stops being a number, and why.
+    """Describe when a quantity is not finite, and why.
 
     Parameters
     ----------
     quantity : Quantity
-        With an entry that is not finite at some time.
+        A quantity with an entry that is not finite at some time.
     array : array, shape (times, *shape)
         Its values.
     time : array, shape (times,)
         In s.
     why : callable, optional
-        From a row to the equations that have no value there, "" if all have one.
+        From a row to a message on the equations that are not finite there, "" if all are finite.
     """
     wrong, n = ~np.isfinite(array), time.size
     rows = wrong.reshape(n, -1).any(axis=1)

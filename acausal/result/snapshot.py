@@ -1,4 +1,4 @@
-"""What remains of a result without its model: the values of all quantities by name."""
+"""The snapshot of a result: the values of all its quantities by name, without the model."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from acausal.language.expression import Expr
 from acausal.result.lookup import Key, Quantity, choose, find, invalid_key, names, not_readable, parse
 from acausal.result.unknown_path import unknown_path
 
-# Entries whose values are computed at once.
+# Number of entries that are evaluated in one call.
 AT_ONCE = 2000
 
 
@@ -30,13 +30,13 @@ class Snapshot:
     model : str
         Name of the model's class.
     quantities : dict of str to Quantity
-        What can be read; columns are places in `values`.
+        The readable quantities; their columns index `values`, then `constants`.
     refused : dict of str to str
-        What cannot be read, and why.
+        Names that cannot be read, each with the message why.
     values : array, shape (times, n)
-        The columns that change with time, equal ones once.
+        The columns that change with time, without duplicates.
     constants : array, shape (m,)
-        The values that do not change; their places follow those of `values`.
+        The values that do not change.
     """
 
     model: str
@@ -55,7 +55,7 @@ class Snapshot:
         return list(self.quantities)
 
     def holds(self, path: str) -> bool:
-        """Whether a path, with or without indices at its end, names one of these quantities."""
+        """Return whether a path, with or without indices at its end, names one of these quantities."""
         return (
             path in self.quantities
             or path.partition("[")[0] in self.quantities
@@ -63,12 +63,12 @@ class Snapshot:
         )
 
     def joined(self, other: Snapshot) -> Snapshot:
-        """Return these quantities and others of the same run, by other names.
+        """Merge with another snapshot of the same run, whose names are different.
 
         Parameters
         ----------
         other : Snapshot
-            Of as many times.
+            The other snapshot, at the same times.
         """
         width, more, before = self.values.shape[1], other.values.shape[1], len(self.constants)
         quantities = {}
@@ -84,7 +84,7 @@ class Snapshot:
         return Snapshot(self.model, quantities, self.refused | other.refused, values, constants)
 
     def evaluate(self, places: np.ndarray) -> np.ndarray:
-        """Return the values at some places, shape (times, places)."""
+        """Return some columns, shape (times, columns)."""
         width = self.values.shape[1]
         found = np.empty((len(self.values), len(places)))
         varies = places < width
@@ -93,12 +93,12 @@ class Snapshot:
         return found
 
     def find(self, key: Key) -> Quantity:
-        """Return the quantity that a key means.
+        """Return the quantity of a key.
 
         Raises
         ------
         DeclarationError
-            If there is none of that name, or the key is an expression.
+            If the name is unknown, or the key is an expression.
         """
         if isinstance(key, Expr):
             remedy = f"result[{key.name!r}]" if key.name in self.quantities else "result['a'] - result['b']"
@@ -119,7 +119,7 @@ class Snapshot:
 
     def _walk(self, path: str) -> Quantity:
         if path == "time" and path not in self.quantities:
-            return Quantity("time", np.empty(1, dtype=int), (), ("s",))  # the result knows it
+            return Quantity("time", np.empty(1, dtype=int), (), ("s",))  # the result holds its values
         *parents, (last, indices) = parse(path)
         owner = ""
         for name, places in parents:
@@ -150,7 +150,7 @@ class Snapshot:
         return quantity
 
     def _part(self, path: str, indices: list[tuple[int, ...]]) -> str:
-        """Return the path of a part, its index counted from the first of its list."""
+        """Return the path of a part, with negative indices counted from the end of its list."""
         if not indices:
             return path
         known = list(range(self.lists.get(path, 0)))
@@ -158,7 +158,7 @@ class Snapshot:
 
 
 def take_snapshot(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], times: int) -> Snapshot:
-    """Compute all quantities of a run.
+    """Compute all quantities of a run as a snapshot.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def take_snapshot(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], time
     places: list[int] = []
     for column in _blocks(found):
         for values in np.ascontiguousarray(np.asarray(evaluate(column), dtype=float).T):
-            # Bytes, not numbers: a NaN is equal to itself then.
+            # Compare bytes, not numbers: a NaN equals itself then.
             constant = values[:1].tobytes() * times == values.tobytes()
             key = values[:1].tobytes() if constant else values.tobytes()
             if key not in known:
@@ -197,7 +197,7 @@ def take_snapshot(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], time
 
 
 def _all(tree: Component) -> tuple[list[Quantity], dict[str, str]]:
-    """Return all quantities of a bound model, and why others cannot be read."""
+    """Return all quantities of a bound model, and the messages for what cannot be read."""
     found, refused = [], {}
     for name in names(tree):
         try:

@@ -1,4 +1,4 @@
-"""What is said of a path that does not exist."""
+"""The message for a path that does not exist."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from acausal.nearest import missing
 from acausal.result.files import shown_name
 
 FILES = (".png", ".svg", ".pdf", ".csv")
-MOST = 10_000  # statements of one component that are read
-LISTED = 8  # names that are listed
+MOST = 10_000  # statements of one component that are searched
+LISTED = 8  # names listed in a message
 
 
 def unknown_path(path: str, known: list[str], tree: Component | None = None, kind: str = "") -> str:
@@ -22,13 +22,13 @@ def unknown_path(path: str, known: list[str], tree: Component | None = None, kin
     Parameters
     ----------
     path : str
-        What was looked for.
+        The path.
     known : list of str
-        What there is.
+        The existing paths.
     tree : Component, optional
         The bound model, if there is one.
     kind : str
-        Without one, the class of the part that the path names, "" if it is not known.
+        Without a model, the class of the part that the path names, "" if unknown.
     """
     if not path.strip():
         return "the name of a variable is empty; give its path, such as 'beam.frame_b.r_0'."
@@ -52,7 +52,7 @@ def unknown_path(path: str, known: list[str], tree: Component | None = None, kin
 
 
 def _nearest_part(path: str, tree: Component) -> str:
-    """Name the parts and ports of the last part on the way to a path that there is."""
+    """List the parts and ports of the deepest existing part along a path."""
     inside = [c for c in walk(tree) if c._path and path.startswith((f"{c._path}.", f"{c._path}["))]
     if not inside:
         return "."
@@ -72,7 +72,7 @@ def _of_derivative(name: str, known: list[str], tree: Component | None) -> str:
 
 
 def _equal_to(tree: Component, derivative: str) -> str:
-    """Return the path of a variable that an equation sets equal to a derivative, "" if there is none."""
+    """Return the path of a variable that an equation equates with a derivative, "" if there is none."""
     token = PENDING.set(Pending())
     try:
         for component in walk(tree):
@@ -84,7 +84,7 @@ def _equal_to(tree: Component, derivative: str) -> str:
                         if other and not other.startswith("der("):
                             return other
     except Exception:
-        return ""  # a hint, no more
+        return ""  # the search only serves a hint
     finally:
         PENDING.reset(token)
     return ""

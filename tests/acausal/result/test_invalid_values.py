@@ -97,7 +97,7 @@ def test_a_table_with_an_output_named_time(tmp_path):
     result = ac.simulate(Timed(x=fixed(1.0)), stop_time=0.5)
     np.testing.assert_array_equal(result["time"], 5.0)
     for write in (lambda: result.to_csv(tmp_path / "a.csv"), result.to_dataframe):
-        with pytest.raises(ac.DeclarationError, match="a table cannot hold `time`"):
+        with pytest.raises(ac.DeclarationError, match="a table cannot hold the variable `time`"):
             write()
     assert list(result.to_dataframe("well")) == ["time", "well"]
     np.testing.assert_array_equal(result.to_dataframe("well")["time"], result.time)
