@@ -173,10 +173,7 @@ class EventConditions:
 
     @cached_property
     def estimate(self) -> Call:
-        """Function of parameters, time and a later time: estimates of switches and discrete variables.
-
-        The switches of timed guards are evaluated at the later time, everything else at start values.
-        """
+        """Function of parameters, time and a later time for timed guards: switches and discrete variables at start values."""
         r, later = self.reduced, ca.SX.sym("later")
         head = self._head()
         starts = self._start(r.p, time.sx) if head.numel() else ca.SX(0, 1)
@@ -265,10 +262,7 @@ class EventConditions:
         return Vectorized(ca.Function("rates", inputs, [ca.vertcat(value, rate - J @ ca.solve(own, right, "qr"))]))
 
     def jump(self, guard: int) -> tuple[Call, list[tuple[bool, int]]]:
-        """Return the values after a jump as a function of x, z, parameters, time and constants, and their targets.
-
-        A target is a pair: whether it is a state or a discrete variable, and its number.
-        """
+        """Return the new values as a function of x, z, parameters, time and constants; and targets: (is a state, number)."""
         return self._jumps[guard]
 
     @cached_property
