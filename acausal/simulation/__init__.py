@@ -1,4 +1,4 @@
-"""The front door: from a model to a result, with what the model declares about its own simulation and with an accuracy."""
+"""Simulation and linearisation of models: settings, accuracy control, fixed-step methods, results of other methods."""
 
 from acausal.simulation.compiled_step import CompiledStep
 from acausal.simulation.fixed_step import March, march

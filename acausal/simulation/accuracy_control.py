@@ -1,8 +1,8 @@
-"""Accuracy: choose tolerance, method, order limit and number of elements so that every output is as accurate as requested.
+"""Accuracy control: choose tolerance, method, order limit and number of elements so that all outputs reach an accuracy.
 
-The error of a run is its difference from a run with a tenth of the tolerance, and from one with twice the elements. The
-run that is returned is the one whose error was estimated, not the better ones beside it, whose errors are unknown.
-The larger of the two errors decides what to refine.
+The error of a run is estimated by comparison with a run at a tenth of the tolerance, and with one with twice as many
+elements. The larger of the two errors decides what to refine. The run that is returned is the one with the estimate, not
+one of the finer runs, whose errors are unknown.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ ACCURACY = POLICY.accuracy
 
 @dataclass(frozen=True)
 class State:
-    """Numerics with their run and the estimate of its error."""
+    """A choice of numerics, its run, and the estimated error of the run."""
 
     numerics: Numerics
     result: Result
@@ -45,7 +45,7 @@ def simulate_to_accuracy(accuracy: float, runs: RunCache) -> Result:
     Raises
     ------
     SimulationError
-        If no such run is found; its `result` is the best one.
+        If no such run is found; its `result` is the best run.
     """
     search = Search(accuracy, runs)
     try:
@@ -95,7 +95,7 @@ class Search:
             numerics = self._refined(state)
 
     def report(self, state: State) -> Result:
-        """Return the run with what was chosen, estimated and tried in its stats."""
+        """Return the run with the chosen numerics, the estimates and the trials in its statistics."""
         found = state.estimate
         chosen = {
             "tolerance": state.numerics.tolerance,
@@ -118,9 +118,9 @@ class Search:
         )
 
     def _way(self, numerics: Numerics) -> Numerics:
-        """Follow every vibration at order 5 where going on as before would cost more.
+        """Switch to resolving every vibration at order 5 if refining the present choice would cost more.
 
-        The multistep method then takes about a step for each radian of the fastest vibration, whatever the tolerance.
+        Cost of resolving: about one step per radian of the fastest vibration, whatever the tolerance.
         """
         task, coarse = self.runs.task, self.runs(numerics)
         if isinstance(coarse, SimulationError) or task.max_order or task.method == "rosenbrock":
@@ -134,7 +134,7 @@ class Search:
         return replace(numerics, tolerance=self.first, method=chosen("resolve")[0], max_order=POLICY.order.highest)
 
     def _state(self, numerics: Numerics) -> State | None:
-        """Run and estimate; None where a run fails."""
+        """Run and estimate the error; None if a run fails."""
         run = self._run(numerics)
         fine = run and self._finer(numerics, run)
         finer = fine and self._run(fine)
@@ -151,7 +151,7 @@ class Search:
         return State(numerics, run, estimate(run, finer, tenths, doubled, half))
 
     def _finer(self, numerics: Numerics, run: Result) -> Numerics | None:
-        """Return the numerics with the largest smaller tolerance that makes a difference."""
+        """Return the numerics with the largest tighter tolerance that takes noticeably more steps; None if a run fails."""
         fine = numerics
         for k in range(1, ACCURACY.tenths + 1):
             if (tolerance := _tenth(numerics.tolerance, k)) < ACCURACY.smallest:
@@ -185,7 +185,7 @@ class Search:
         return self._tighter(numerics, max(1, int(missing)))
 
     def _past_failure(self, numerics: Numerics) -> Numerics:
-        """Refine everything, if nothing better than this succeeded and not too much failed already."""
+        """Refine tolerance and elements after a failed run; give up if a run has succeeded or too many have failed."""
         if self.best or len(self.failures) >= ACCURACY.failures:
             raise self._refusal("runs with smaller tolerances or more elements fail")
         number = 2 * numerics.number
@@ -203,8 +203,8 @@ class Search:
         best = self.report(self.best)
         text = chosen_text(best.stats)
         refusal = SimulationError(
-            f"the accuracy was not reached: {reason}. The best run: {text}. Ask for less, or examine the outputs of a run "
-            "with tolerance=... .",
+            f"the accuracy was not reached: {reason}. The best run: {text}. Do this: request less accuracy, or examine the "
+            "outputs of a run with tolerance=... .",
             best,
         )
         refusal.kept = "The best run"
@@ -212,7 +212,7 @@ class Search:
 
 
 def chosen_text(stats: Mapping[str, Any]) -> str:
-    """Return what was requested, chosen and estimated, in one line."""
+    """Return the requested accuracy, the chosen numerics and the estimated error, in one line."""
     chosen = stats["chosen"]
     sizes = "".join(f", {n} {_what(path)}" for path, n in chosen["sizes"].items())
     text = (
@@ -233,7 +233,7 @@ def _what(path: str) -> str:
 
 
 def _work(run: Result) -> int:
-    """Return the steps, those of the one-step method counted several times."""
+    """Return the number of steps, those of the one-step method weighted by their cost."""
     return sum(n * (1 if name == "idas" else ACCURACY.one_step) for name, n in run.stats.method_steps.items())
 
 

@@ -1,4 +1,4 @@
-"""Fixed steps of a rule that a user writes once, compiled and mapped over blocks of steps."""
+"""march(): fixed-step integration by a compiled step function of the user, in blocks of steps."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from acausal.solve.integrate.settings import Progress
 
 @dataclass(frozen=True, eq=False)
 class March:
-    """What steps have found.
+    """The trajectory of a fixed-step integration.
 
     Parameters
     ----------
     states : array, shape (k + 1, n)
         States at the start and after each of the k steps that were taken.
     outputs : array, shape (k, m)
-        What each step gave beside the new state.
+        Other values of each step.
     diverged : bool
-        Whether the steps were ended because a state left its bounds, or is no number, after one more.
+        Whether the run ended early because the next state exceeds its bounds or is not a number.
     operations : int
         Operations of one step.
     building, seconds : float
-        Seconds for compiling the step, and in the steps.
+        Seconds spent on compiling the step, and on taking steps.
     """
 
     states: np.ndarray
@@ -51,21 +51,21 @@ def march(
     bounds: Any = np.inf,
     progress: Progress | None = None,
 ) -> March:
-    """Take one step for each row of inputs, without Python in between.
+    """Take one step for each row of inputs, without Python between steps.
 
     Parameters
     ----------
     step : callable
         From symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
-        to a vector of other values, of any length. Called once; what it gives depends on nothing else.
+        to a vector of other values, of any length. It is called once and must be a pure function of its arguments.
     start : array_like, shape (n,)
         State at the start.
     inputs : array_like, shape (steps, u)
-        What the steps are given, one row each.
+        Inputs of the steps, one row each.
     bounds : array_like, shape (n,)
-        The steps end where the absolute value of a state exceeds its bound.
+        The run ends if the absolute value of a state exceeds its bound.
     progress : callable, optional
-        Told the part that is done, from 0 to 1, and the steps, after each block.
+        Called after each block with the fraction done, from 0 to 1, and the number of steps.
 
     Returns
     -------
@@ -75,9 +75,9 @@ def march(
     Raises
     ------
     DeclarationError
-        If the step does not return as many states as it was given, or needs other symbols.
+        If the step returns another number of states, or depends on other symbols.
     KeyboardInterrupt
-        With what was found as its attribute `result`.
+        Its attribute `result` holds the steps taken so far.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def march(
         while done < len(u) and not diverged:
             count = min(POLICY.calls.steps_of_a_block, len(u) - done)
             after, values = one(states[done], u[done : done + count])
-            inside = (np.abs(after) <= limits).all(axis=1)  # false for what is no number
+            inside = (np.abs(after) <= limits).all(axis=1)  # false for NaN
             count, diverged = (count, False) if inside.all() else (int(np.argmin(inside)), True)
             states[done + 1 : done + 1 + count], outputs[done : done + count] = after[:count], values[:count]
             done += count

@@ -1,4 +1,4 @@
-"""What a model declares about its own simulation: attributes that `simulate` takes where its arguments are not given."""
+"""Simulation settings that a model declares as attributes: defaults of the arguments of `simulate`."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ COUNTS = ("intervals", "max_order")
 def effective_settings(
     model: Component | CompiledModel, values: Mapping[str, Any] | None, given: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return settings of a simulation: those that are given, otherwise those of the model, otherwise the defaults.
+    """Return the settings of a simulation: the given ones, else those of the model, else the defaults.
 
     Parameters
     ----------
@@ -42,11 +42,11 @@ def effective_settings(
     values : mapping of str to value or None
         Values by path that replace those of the model.
     given : mapping of str to value
-        Settings by the name of the argument, None where it is not given.
+        Settings by the name of the argument, None if not given.
     """
     own = _declared(model, values)
     found = {name: own(name) if v is None else v for name, v in given.items()}
-    # One of the two is enough, and an argument takes precedence over the model.
+    # The two exclude each other, and an argument takes precedence over the model.
     for one, other in (("tolerance", "accuracy"), ("accuracy", "tolerance")):
         if given.get(one) is not None and given.get(other) is None:
             found.pop(other, None)
@@ -54,15 +54,15 @@ def effective_settings(
 
 
 def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = None) -> Any:
-    """Return a setting that a model declares, None where it declares none.
+    """Return a setting that a model declares, None if it declares none.
 
     Parameters
     ----------
     model : Component
         Not built.
     name : str
-        Argument of `simulate`. A plain attribute, a property or an expression of fields gives it; a field of this name is
-        something else, except a stop time or a method.
+        Argument of `simulate`. A plain attribute, a property or an expression of fields declares it; a field of this name is
+        not a setting, except a stop time or a method.
     values : mapping of str to value, optional
         Values by path that replace those of the model.
     """
@@ -82,19 +82,19 @@ def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = 
         and value.is_integer()
         and isinstance(declared, f.Deferrable | property)
     ):
-        return int(value)  # parameters are floating point numbers
-    return None if name == "initial" and not isinstance(value, str) else value  # a number is the user's own constant
+        return int(value)  # parameters are floating-point numbers
+    return None if name == "initial" and not isinstance(value, str) else value  # a number is a constant of the user
 
 
 def check_number(name: str, value: Any) -> None:
-    """Refuse what is not a finite number.
+    """Raise DeclarationError if a setting is not a finite number.
 
     Parameters
     ----------
     name : str
-        The setting.
+        Name of the setting.
     value : object
-        What is given for it.
+        Its value.
     """
     if isinstance(value, Expr):
         if not (value.sx.is_constant() and not value.shape):
@@ -108,7 +108,7 @@ def check_number(name: str, value: Any) -> None:
 
 
 def declared_settings(compiled: CompiledModel) -> dict[str, Any]:
-    """Return what a compiled model declares, as numbers, texts, or expressions of its free parameters."""
+    """Return the settings of a compiled model as numbers, texts, or expressions of its free parameters."""
     if compiled.source is None:
         return dict(compiled.declared or {})
     found = {}
@@ -122,7 +122,7 @@ def declared_settings(compiled: CompiledModel) -> dict[str, Any]:
 
 
 def _declared(model: Component | CompiledModel, values: Mapping[str, Any] | None) -> Callable[[str], Any]:
-    """Return what gives the settings that a model declares, with values by path that replace its own."""
+    """Return a function from the name of a setting to the model's own value, given values by path."""
     model, values = checked_model(model, compiled=True), checked_values(values)
     if not isinstance(model, CompiledModel):
         return lambda name: own_setting(model, name, values)

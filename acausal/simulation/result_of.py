@@ -1,4 +1,4 @@
-"""result_of(): a Result of what another method than the engine's has found."""
+"""result_of(): a Result made from the arrays of another method."""
 
 from __future__ import annotations
 
@@ -31,43 +31,42 @@ def result_of(
     title: str = "",
     **stats: Any,
 ) -> Result:
-    """Return a result of given arrays, alone or as the motion of a model.
+    """Return a result made from arrays, alone or as the motion of a model.
 
-    Without a model it holds these arrays and nothing else. With one, the arrays tell all of its states (`compiled.states`),
-    by any name that a state has, and maybe more. Everything of the model can then be read: what is given, and what its
-    variables of the same value are, as it is given; everything else from these, as the equations of the model have it
-    at these states. So a method may bring its own accelerations, and the outputs of the model follow from them.
+    Without a model, the result holds these arrays alone. With a model, the arrays must include all of its states
+    (`compiled.states`), by any alias of a state, and may include more. Every variable of the model can then be read: given
+    variables and their aliases as given, all others computed from them by the equations of the model. So a method may
+    supply its own accelerations, and the outputs of the model follow from them.
 
     Parameters
     ----------
     time : array_like, shape (times,)
         In s, increasing.
     values : mapping of str to (array_like, str)
-        For each path, as "body.tip.v", an array with one entry for each time, shape (times, *shape), in SI, and the unit of its
-        entries. The entries are scalars, vectors or matrices. Variables of the model need no unit: the array alone is in
-        theirs. What the model does not have is read beside it.
+        For each path, such as "body.tip.v", an array of shape (times, *shape) in SI units, and the unit of its entries, which
+        are scalars, vectors or matrices. For variables of the model the array alone is enough. Quantities that the model
+        does not have are read beside it.
     outputs : sequence of str
-        Paths of the columns of tables and pictures if nothing is asked for. If there are none, the outputs of the model, or
-        without one all scalars.
+        Default columns of tables and plots. If empty, the outputs of the model, or without a model all scalars.
     model : Component or CompiledModel, optional
-        Without closed loops and discrete variables: their states do not tell all.
+        A model without closed loops and discrete variables: these are not determined by the states alone.
     parameters : mapping of str to value, optional
         Values of the parameters of the model by path, as of `simulate`.
     title : str
-        What the arrays are of, for titles; the class of the model if not given.
+        Title of the result; the class of the model if not given.
     **stats : Any
-        Statistics, as `Result.stats` has them.
+        Statistics, as in `Result.stats`.
 
     Returns
     -------
     Result
-        Of these arrays alone as one that was loaded without its model.
+        Without a model it is read by name alone, like a loaded result.
 
     Raises
     ------
     DeclarationError
-        If an array has not one entry for each time, a path is none, a unit is not known or not that of the model, a state has no
-        values, two names of one variable have different ones, or an output is not among the values.
+        If an array does not have one entry per time, a path is invalid, a unit is unknown or not that of the model, a state
+        has no values, two aliases have different values, or an output is not among the values.
 
     Examples
     --------
@@ -78,7 +77,7 @@ def result_of(
     if model is None:
         columns = checked_columns(times, values)
         if parameters:
-            raise DeclarationError("parameters= are those of a model: give it by model=")
+            raise DeclarationError("parameters= needs a model: give it by model=")
         snapshot = snapshot_of(columns, times.size, title)
         shown = checked_outputs(outputs, snapshot.names) or tuple(
             n for n, q in snapshot.quantities.items() if not q.shape
@@ -98,7 +97,7 @@ def result_of(
 
 
 def _fitting(compiled: CompiledModel, path: str, given: Any, values: np.ndarray) -> Any:
-    """Return what a path means in the model, and its values."""
+    """Return the quantity of the model that a path names, and its values, after checking shape and units."""
     quantity = find(compiled.tree, path)
     if quantity.shape != given.shape:
         raise DeclarationError(f"`{path}` has shape {quantity.shape} in the model, and {given.shape} in the values")

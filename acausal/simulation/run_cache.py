@@ -1,4 +1,4 @@
-"""Runs of one model with several tolerances, methods and numbers of elements, each done once."""
+"""Cache of runs of one model with several tolerances, methods and numbers of elements."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ COUNTS = ("states", "steps", "factorisations", "residual_evaluations", "solve_se
 
 @dataclass(frozen=True)
 class Numerics:
-    """How to run: elements or volumes of each adaptive beam (0: none is adaptive), tolerance, method, order limit."""
+    """Numerics of a run: elements or volumes of each adaptive beam (0 if none is adaptive), tolerance, method, order limit."""
 
     number: int
     tolerance: float
@@ -32,7 +32,7 @@ class Numerics:
 
 
 class RunCache:
-    """Runs of a model.
+    """Runs of a model by their numerics, each computed once.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class RunCache:
     parameters : mapping of str to value or None
         As of `simulate`.
     task : Task
-        What to run; tolerance, method and order limit are those of the numerics.
+        The task; tolerance, method and order limit are replaced by the numerics.
     """
 
     def __init__(self, model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task) -> None:
@@ -65,10 +65,10 @@ class RunCache:
         self.compiled: dict[int, tuple[CompiledModel, np.ndarray]] = {}
         self.results: dict[Numerics, Result | SimulationError] = {}
         self.done: list[dict[str, Any]] = []
-        self.building = 0.0  # of integrators, in s
+        self.building = 0.0  # seconds spent on building integrators
 
     def __call__(self, numerics: Numerics) -> Result | SimulationError:
-        """Return the result of a run with these numerics, or how it failed."""
+        """Return the result of a run with these numerics, or the error by which it failed."""
         numerics = replace(numerics, number=int(min(numerics.number, self.greatest)))
         if numerics not in self.results:
             compiled, p = self._compile(numerics.number)
@@ -82,11 +82,11 @@ class RunCache:
         return self.results[numerics]
 
     def sizes(self, number: int) -> dict[str, int]:
-        """Return elements or volumes by path."""
+        """Return numbers of elements or volumes by path."""
         return {path: int(min(max(number, least), most)) for path, (least, most) in self.adaptive.items()}
 
     def seconds(self) -> dict[str, float]:
-        """Return seconds of compiling and solving, all runs together."""
+        """Return the seconds spent on compiling and solving in all runs."""
         return {
             "compile_seconds": sum(sum(c.seconds.values()) for c, _ in self.compiled.values()) + self.building,
             "solve_seconds": sum(run["solve_seconds"] for run in self.done),
@@ -113,7 +113,7 @@ class RunCache:
 
 
 def adaptive(tree: Component, whatever: bool = False) -> dict[str, tuple[int, float]]:
-    """Return path and bounds of every number of elements that accuracy may choose, or of all, whatever it may."""
+    """Return path and bounds of every number of elements that accuracy control may choose, or of all if `whatever`."""
     return {
         join(component._path, name): (int(declared.minimum or 1), _most(component, declared))
         for component in walk(tree)

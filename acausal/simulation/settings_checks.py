@@ -1,4 +1,4 @@
-"""What a simulation is asked for: settings that no run can have are refused before any work is done."""
+"""Checks of the settings of a simulation, before any work is done."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from acausal.solve.start.initialize import INITIAL
 CHOICES = ("auto", "idas", "rosenbrock", "resolve")
 CONSTRAINTS = ("auto", "states", "projection")
 CHOOSE = {"method": CHOICES, "constraints": CONSTRAINTS, "initial": INITIAL}
-MOST = 100_000_000  # points of a run
+MOST = 100_000_000  # output points of a run: more would not fit into memory
 
 
 def checked_task(
@@ -31,7 +31,7 @@ def checked_task(
     energy: bool = False,
     progress: Progress | None = None,
 ) -> tuple[Task, float | None]:
-    """Return what to run and the accuracy, or refuse what cannot be meant, before any work is done.
+    """Return the task of a simulation and the requested accuracy; raise DeclarationError for invalid settings.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def checked_task(
     parameters : mapping of str to value or None
         As of `simulate`.
     given : mapping of str to value
-        Settings by the name of the argument, None where it is not given.
+        Settings by the name of the argument, None if not given.
     start_time, energy, progress
         As of `simulate`.
     """
@@ -59,30 +59,30 @@ def checked_task(
     for name in CHOOSE:
         check_choice(name, getattr(task, name))
     numbers = {name: float(getattr(task, name)) for name in ("start_time", "stop_time", "tolerance")}
-    return replace(task, **numbers), accuracy  # a comparison of numbers of numpy is no bool
+    return replace(task, **numbers), accuracy  # plain floats: comparing numpy's numbers does not give a bool
 
 
 def check_choice(name: str, value: Any) -> None:
-    """Refuse what is none of the choices of an argument of `simulate`.
+    """Raise DeclarationError if an argument of `simulate` is not one of its choices.
 
     Parameters
     ----------
     name : "method", "constraints" or "initial"
         The argument.
     value : object
-        What is given; None leaves it to the model.
+        Its value; None leaves it to the model.
     """
     if value is not None and not (isinstance(value, str) and value in CHOOSE[name]):
         raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(CHOOSE[name])}.")
 
 
 def check_intervals(intervals: Any) -> None:
-    """Refuse what is no number of intervals, or more than any memory holds.
+    """Raise DeclarationError if a number of intervals is not a positive whole number, or too large for any memory.
 
     Parameters
     ----------
     intervals : object
-        What is given.
+        The number.
     """
     if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
         whole = isinstance(intervals, float) and intervals >= 1 and intervals.is_integer()
@@ -93,7 +93,7 @@ def check_intervals(intervals: Any) -> None:
 
 
 def _check(task: Task, accuracy: float | None) -> None:
-    """Refuse settings that no run can have."""
+    """Raise DeclarationError for settings that are out of range or contradict each other."""
     numbers = {"start_time": task.start_time, "stop_time": task.stop_time, "tolerance": task.tolerance}
     for name, value in {**numbers, **({} if accuracy is None else {"accuracy": accuracy})}.items():
         check_number(name, value)
@@ -102,8 +102,8 @@ def _check(task: Task, accuracy: float | None) -> None:
         raise DeclarationError(f"stop_time is {stop:g} s; it must come after start_time = {start:g} s.")
     if (stop - start) / task.intervals <= 8 * np.spacing(max(abs(start), abs(stop))):
         raise DeclarationError(
-            f"start_time = {start:g} s and stop_time = {stop:g} s are too near each other for {task.intervals} outputs between "
-            "them: numbers of this size cannot tell them apart. Count time from 0, or take fewer intervals."
+            f"start_time = {start:g} s and stop_time = {stop:g} s are too close for {task.intervals} output intervals: "
+            "floating-point numbers of this size cannot resolve them. Count time from 0, or take fewer intervals."
         )
     limits = (("tolerance", task.tolerance, POLICY.defaults.rounding, "1e-6"), ("accuracy", accuracy, 0, "1e-3"))
     for name, value, least, example in limits:

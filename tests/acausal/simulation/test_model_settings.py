@@ -220,12 +220,12 @@ def test_fields_under_a_second_name_follow_the_first_and_can_be_set():
 @pytest.mark.parametrize(
     ("name", "value", "text"),
     [
-        ("stop_time", 2 * Fields.x, "stop_time follows from the variable `x`. Let it follow from parameters"),
-        ("tolerance", Fields.x, "tolerance follows from the variable `x`"),
-        ("stop_time", 2 * ac.time, "stop_time of Wrong follows from time"),
+        ("stop_time", 2 * Fields.x, "stop_time depends on the variable `x`. Compute it from parameters"),
+        ("tolerance", Fields.x, "tolerance depends on the variable `x`"),
+        ("stop_time", 2 * ac.time, "stop_time of Wrong depends on time"),
         ("stop_time", Fields.end - 1, r"stop_time of Wrong is -0\.5; it must be a number of seconds"),
         ("stop_time", Fields.end > 2, "stop_time of Wrong is a condition; it must be"),
-        ("stop_time", property(lambda s: 2 * s.x), "stop_time follows from the variable `x`"),
+        ("stop_time", property(lambda s: 2 * s.x), "stop_time depends on the variable `x`"),
         ("stop_time", property(lambda s: 2 * s.endd), "has no `endd`; did you mean `end`"),
         ("intervals", Fields.end * 3, r"intervals is 1\.5; it must be a whole number"),
     ],
