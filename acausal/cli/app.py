@@ -110,14 +110,14 @@ def simulate(
     plot: Annotated[str | None, typer.Option(help="Plot the outputs.", metavar="FILE.png")] = None,
     animate: Annotated[
         str | None,
-        typer.Option(help="Write how it moves: a page for any browser, or FILE.gif, FILE.png.", metavar="FILE.html"),
+        typer.Option(help="Write an animation: a page for any browser, or FILE.gif, FILE.png.", metavar="FILE.html"),
     ] = None,
     values: Annotated[
         list[str] | None,
-        typer.Option(help="What beams can be coloured by there: 'bending moment', 'axial force', all.", metavar="NAME"),
+        typer.Option(help="Colours of beams in the animation: 'bending moment', 'axial force', all.", metavar="NAME"),
     ] = None,
     deformation: Annotated[
-        float, typer.Option(help="Scale of deformations there, 1 to 1000.", metavar="X", show_default=False)
+        float, typer.Option(help="Scale of deformations in the animation, 1 to 1000.", metavar="X", show_default=False)
     ] = 1.0,
     json: Json = None,
     variables: Annotated[
@@ -147,7 +147,7 @@ def simulate(
             how["stop_time"] = stop_time_of(model, given, stop_time)
             checked_task(model, given, how)
             compiled = ac.compile(model, parameters=given)
-        # Wrong names are refused before any work.
+        # Refuse wrong names before the run.
         chosen = match(compiled.tree, variables or ())
         with blaming(cls):
             files.check(compiled.tree)
@@ -166,7 +166,7 @@ def simulate(
 
 @app.command()
 def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Json = None) -> None:
-    """Compile a scene and report what the compiler did: equations and unknowns, states, what was removed, seconds."""
+    """Compile a scene and report equations, unknowns, states, removed equations and seconds."""
     with running(json) as standard_output:
         check_outputs((file_of(scene), effects), json=json)
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
@@ -196,7 +196,7 @@ def linearize(
 
 
 def _at_start(compiled: CompiledModel) -> AtStart | None:
-    """What the ranks of loops show; they need consistent positions."""
+    """Return the redundant constraints and independent states of loops, which need consistent positions."""
     from acausal.solve.problem import Problem
     from acausal.solve.start.start import start
 
@@ -205,12 +205,14 @@ def _at_start(compiled: CompiledModel) -> AtStart | None:
     try:
         return start(Problem(compiled, compiled.parameter_values(None)), 0.0, 0.0, "guesses").found(compiled)
     except InitializationError as error:
-        tell(f"no consistent start was found, so ranks and independent states are not known: {error}")
+        tell(
+            f"no consistent initial values were found, so redundant constraints and independent states are unknown: {error}"
+        )
         return None
 
 
 def _chosen(result: Result, patterns: list[str] | None) -> list[str]:
-    """Return the names that match; accuracy may have chosen so few volumes that a pattern matches none."""
+    """Return the names that match; with few volumes, as accuracy control may choose, a pattern may match none."""
     found: dict[str, None] = {}
     for pattern in patterns or ():
         try:
@@ -221,7 +223,7 @@ def _chosen(result: Result, patterns: list[str] | None) -> list[str]:
 
 
 def _rescue(compute: Callable[[Progress], Result], files: Files, patterns: list[str] | None, quiet: bool) -> Result:
-    """Run a simulation; where it fails or is interrupted, write what it has computed so far."""
+    """Run a simulation; if it fails or is interrupted, write the results so far."""
     try:
         with progress_bar(not quiet) as show:
             return compute(show)

@@ -1,4 +1,4 @@
-"""What all commands share: arguments, errors as messages, and how a scene is compiled."""
+"""Common parts of the commands: arguments, errors as messages, compilation of a scene."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
 FAILED, INTERRUPTED, TERMINATED = 1, 130, 143
-# What a full, closed or unread standard output gives.
+# Errors of a standard output that is full, closed or no longer read.
 NO_OUTPUT = (errno.EPIPE, errno.ENOSPC, errno.EBADF, errno.EIO, errno.EFBIG)
-STOP_TIME = 1.0  # of a model that declares none, in s
+STOP_TIME = 1.0  # default in s, for models that declare none
 
 Scene = Annotated[str, typer.Argument(help="Name of a scene, or path/to/file.py:ClassName.", show_default=False)]
 Set = Annotated[
@@ -52,7 +52,7 @@ Initial = Annotated[
     typer.Option(
         "--initial",
         metavar="fixed|guesses|steady",
-        help="What to do with states that no condition fixes; fixed if the scene says nothing else.",
+        help="What to do with states without an initial condition; the scene's own or fixed if not given.",
         show_default=False,
     ),
 ]
@@ -66,7 +66,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors."
 def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
     """Turn errors into a message and an exit status; yield the stream for a JSON document.
 
-    With `json` "-" everything else that is printed goes to standard error; with `quiet` there are no warnings.
+    With `json` "-" all other output goes to standard error; with `quiet` warnings are hidden.
     """
     try:
         if json not in (None, "-"):
@@ -90,17 +90,17 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
 
 
 def message_of(error: BaseException) -> str:
-    """Return the message of an error as the command line says it: what was computed is written, not an attribute."""
+    """Return the message of an error in the words of the command line: results are in files, not in `error.result`."""
     return error.said("is kept") if isinstance(error, SimulationError) else str(error)
 
 
 class Terminated(KeyboardInterrupt):
-    """The process was asked to end; what was computed is kept, as after an interrupt."""
+    """SIGTERM was received; results so far are written, as after an interrupt."""
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Treat the first SIGTERM like an interrupt from the keyboard; the second one ends the process at once."""
+    """Treat the first SIGTERM like a keyboard interrupt; a second one ends the process at once."""
 
     def terminate(*_: Any) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -118,7 +118,7 @@ def _terminable() -> Iterator[None]:
 
 @contextmanager
 def _told(quiet: bool) -> Iterator[None]:
-    """Print warnings of this package as a line on standard error, each text once or none at all, others as Python does."""
+    """Print warnings of this package on standard error, each text once, or none if quiet; others as Python does."""
     told: set[str] = set()
     with warnings.catch_warnings():
         warnings.simplefilter("always", AcausalWarning)
@@ -137,7 +137,7 @@ def _told(quiet: bool) -> Iterator[None]:
 
 @contextmanager
 def blaming(cls: type[Model]) -> Iterator[None]:
-    """Name the line of the user's file where Python's own errors come from it."""
+    """Turn Python errors that come from the user's file into messages with file and line."""
     try:
         yield
     except AcausalError:
@@ -145,7 +145,7 @@ def blaming(cls: type[Model]) -> Iterator[None]:
     except Exception as error:
         place = place_in(error, Path(inspect.getfile(cls)))
         if not place:
-            raise  # not the user's fault: whoever repairs the engine needs the traceback
+            raise  # an error of the engine: keep the traceback
         raise DeclarationError(f"{place}: {brief(error)}") from error
     except SystemExit as error:
         raise ended(error, Path(inspect.getfile(cls))) from None
@@ -154,7 +154,7 @@ def blaming(cls: type[Model]) -> Iterator[None]:
 def make_scene(
     scene: str, cls: type[Model], settings: list[str] | None, effects: str | None
 ) -> tuple[Model, dict[str, Any]]:
-    """Return a scene and the values that the user gave."""
+    """Return a scene and the values given by the user."""
     values: dict[str, Any] = read_settings(settings or ())
     with blaming(cls):
         model = instance(cls)
@@ -166,7 +166,7 @@ def make_scene(
 
 
 def compile_scene(scene: str, cls: type[Model], settings: list[str] | None, effects: str | None) -> CompiledModel:
-    """Compile a scene with what the user gave."""
+    """Compile a scene with the values given by the user."""
     import acausal as ac
 
     model, values = make_scene(scene, cls, settings, effects)
@@ -175,7 +175,7 @@ def compile_scene(scene: str, cls: type[Model], settings: list[str] | None, effe
 
 
 def stop_time_of(model: Model, values: dict[str, Any], given: float | None) -> float:
-    """Return the stop time that was given, or the scene's own."""
+    """Return the given stop time, or the scene's own, or the default."""
     own = own_stop_time(model, values) if given is None else given
     return STOP_TIME if own is None else own
 

@@ -31,7 +31,7 @@ def effects(
     outputs: Annotated[
         list[str] | None,
         typer.Option(
-            help="What to compare: paths with * and ?; what the scene says, or its outputs, if not given.",
+            help="Quantities to compare: paths with * and ?; those of the scene, or its outputs, if not given.",
             metavar="PATTERN",
         ),
     ] = None,

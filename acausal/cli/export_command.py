@@ -35,7 +35,7 @@ def export(
     ] = None,
     free: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME", help="Keep a parameter in the equations although it is 0; may be repeated."),
+        typer.Option(metavar="NAME", help="Keep a parameter in the equations even if it is 0; may be repeated."),
     ] = None,
     dae: Annotated[
         str | None, typer.Option(metavar="FILE", help="Write the equations, for `acausal.load_dae` and other programs.")
@@ -46,7 +46,7 @@ def export(
     with running(quiet=quiet):
         from acausal.export import check_fmu
 
-        version, names = _asked(fmu, dae, fmi_version, platforms, free)
+        version, names = _checked_options(fmu, dae, fmi_version, platforms, free)
         check_outputs((file_of(scene), effects), fmu=fmu, dae=dae)
         enclosed = check_fmu(fmu, version, names) if fmu is not None else {}
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
@@ -63,14 +63,14 @@ def export(
             typer.echo(f"wrote {shown_name(fmu or dae)}{about}")
 
 
-def _asked(
+def _checked_options(
     fmu: str | None, dae: str | None, fmi_version: int | None, platforms: str | None, free: list[str] | None
 ) -> tuple[int, tuple[str, ...]]:
-    """Return version and platforms, or refuse options that do not go together."""
+    """Return version and platforms; raise DeclarationError for options that exclude each other."""
     if (fmu is None) == (dae is None):
         raise DeclarationError("export writes one file: give --fmu FILE.fmu or --dae FILE.")
     options = {"--fmi-version": fmi_version, "--platforms": platforms, "--free": free}
     if dae is not None and (idle := [name for name, given in options.items() if given]):
-        raise DeclarationError(f"{idle[0]} says nothing about --dae {shown_name(dae)}; leave it out, or give --fmu.")
+        raise DeclarationError(f"{idle[0]} does not apply to --dae {shown_name(dae)}; leave it out, or give --fmu.")
     names = tuple(name.strip() for name in (platforms if platforms is not None else "own").split(","))
     return 3 if fmi_version is None else fmi_version, names

@@ -1,4 +1,4 @@
-"""Values that options give as text."""
+"""Parsing of option values."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from acausal.errors import DeclarationError
 from acausal.result import shown_name
 
-# A text that begins like this is meant as a number, a tuple or quoted.
+# First characters of a text that is meant as a number, a tuple or a quoted text.
 _LITERAL = "([{+-'\""
 _DIGITS = 300
 
@@ -25,7 +25,7 @@ def read_settings(texts: Iterable[str]) -> dict[str, Any]:
     Raises
     ------
     DeclarationError
-        If a text is not such a pair, or gives a name again.
+        If a text is not such a pair, or a name occurs twice.
     """
     values: dict[str, Any] = {}
     for text in texts:
@@ -42,7 +42,7 @@ def read_switches(texts: Iterable[str]) -> dict[str, list[Any]]:
     Parameters
     ----------
     texts : iterable of str
-        Each VALUE as in `read_settings`, but for tuples.
+        Each VALUE as in `read_settings`, except tuples.
     """
     found: dict[str, list[Any]] = {}
     for text in texts:
@@ -58,7 +58,7 @@ def read_switches(texts: Iterable[str]) -> dict[str, list[Any]]:
 
 
 def pair(text: str, form: str) -> tuple[str, str]:
-    """Split NAME=VALUE; `form` tells what is expected."""
+    """Split NAME=VALUE; `form` describes the expected form in the message."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not (name and equals and value):
         raise DeclarationError(f"{form}, not `{shown_name(text)}`.")
@@ -71,9 +71,9 @@ def value_of(text: str, option: str) -> Any:
     Parameters
     ----------
     text : str
-        Without spaces around it.
+        The text, without surrounding spaces.
     option : str
-        What gave it, for messages.
+        The option, for messages.
     """
     if text.lower() in ("true", "false"):
         return text.lower() == "true"
@@ -89,15 +89,15 @@ def value_of(text: str, option: str) -> Any:
         pass
     if text[0] in _LITERAL:
         raise DeclarationError(
-            f"{option}: `{shown_name(text)}` is no value; give a number (4, -7e10), a word (fem), or a tuple (0,0,1)."
+            f"{option}: `{shown_name(text)}` is not a value; give a number (4, -7e10), a word (fem), or a tuple (0,0,1)."
         )
     return text
 
 
 def _is_plain(value: Any) -> bool:
-    """Return whether a value is one that a parameter may have."""
+    """Return whether a value is a plain value, as parameters take it."""
     if isinstance(value, list | tuple):
         return all(_is_plain(item) for item in value)
     if isinstance(value, int) and abs(value) > 10**_DIGITS:
-        return False  # no number of a computer; as a float it is infinite, and refused as that
+        return False  # exceeds the range of a double; as a float it is infinite and refused with that message
     return value is None or isinstance(value, bool | int | float | str)

@@ -50,7 +50,7 @@ def study(
         list[str] | None,
         typer.Option(
             metavar="PATTERN",
-            help="What to compare: paths with * and ?; what the scene says, or its outputs, if not given.",
+            help="Quantities to compare: paths with * and ?; those of the scene, or its outputs, if not given.",
         ),
     ] = None,
     reference: Annotated[
@@ -83,7 +83,7 @@ def study(
     json: Json = None,
     quiet: Quiet = False,
 ) -> None:
-    """Run a scene in many ways against a reference: what each digit costs in time."""
+    """Run a scene in many ways and compare error and time with a reference."""
     with running(json) as standard_output:
         from acausal.study import study as run
 
@@ -120,7 +120,7 @@ def study(
                 )
         except KeyboardInterrupt:
             kept = f"finished cases are kept in {journal}: the same command continues from there"
-            tell(kept if journal else "nothing is kept; with --csv FILE a study can continue where it stopped")
+            tell(kept if journal else "finished cases are lost; with --csv FILE a study can continue where it stopped")
             raise
         if csv:
             found.to_csv(csv)

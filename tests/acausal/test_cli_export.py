@@ -56,8 +56,8 @@ def asked(monkeypatch):
         (["--fmu", "a.fmu", "--fmi-version", "three"], 2, "Invalid value for '--fmi-version'"),
         (["--fmu", "a.fmu", "--platforms", "linux"], 2, "there is no platform `linux`; did you mean `linux-x86_64`?"),
         (["--fmu", "a.fmu", "--platforms", ""], 2, "there is no platform ``."),
-        (["--dae", "a.dae", "--platforms", "all"], 2, "--platforms says nothing about --dae a.dae"),
-        (["--dae", "a.dae", "--free", "x"], 2, "--free says nothing about --dae a.dae"),
+        (["--dae", "a.dae", "--platforms", "all"], 2, "--platforms does not apply to --dae a.dae"),
+        (["--dae", "a.dae", "--free", "x"], 2, "--free does not apply to --dae a.dae"),
     ],
 )
 def test_refused_before_anything_is_compiled(run, asked, monkeypatch, words, status, why):
