@@ -1,6 +1,6 @@
-"""What accuracy costs in time: run a model in many ways, against a reference.
+"""Studies of accuracy against time: run a model in many ways and compare with a reference.
 
-`measuring` runs cases; `studies` varies formulations and tolerances, `effects` sets effects, and neither knows the other.
+`measuring` runs cases; `studies` varies formulations and tolerances; `effects` varies effects. The last two are independent.
 """
 
 from acausal.study.effects.effects import effects

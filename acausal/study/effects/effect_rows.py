@@ -1,4 +1,4 @@
-"""Rows of a study of effects: what switched effects change, and what they cost."""
+"""Rows of a study of effects: changes and costs of switched effects."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from acausal.simulation.estimate import scale
 from acausal.study.measuring.case import Measurement
 from acausal.study.measuring.deviation import deviations
 
-# What a cheapest set is for, beside one output.
+# Name of the target of a cheapest set that covers all outputs.
 ALL = "all outputs"
 
 
 @dataclass(frozen=True)
 class EffectRow:
-    """What a variant changes and costs, next to the reference.
+    """Changes and costs of a variant relative to the reference.
 
     Parameters
     ----------
     choices : mapping of str to value
-        What is switched; nothing in the reference.
+        Switched effects; empty for the reference.
     largest, rms : mapping of str to float
-        Change of each output as a fraction of its range: the largest, and the root mean square.
+        Largest and root mean square change of each output, as a fraction of its range.
     seconds : float
         Median solve time.
     time, work : float
-        Ratio of solve times, and of operations.
+        Ratios of solve times and of operations.
     operations, equations, equations_less, steps : int
-        Instructions of equations and Jacobian; size of the integrated system, and by how much it is smaller; steps.
+        Instructions of equations and Jacobian; size of the integrated system, and its reduction; number of steps.
     error : str
-        Why the variant failed, "" if it did not.
+        Why the variant failed, "" if it succeeded.
     """
 
     choices: Mapping[str, Any]
@@ -51,33 +51,33 @@ class EffectRow:
 
     @property
     def name(self) -> str:
-        """The switched effects: "crank=rigid, rod_bar.weight=False"."""
+        """The switched effects, such as "crank=rigid, rod_bar.weight=False"."""
         return ", ".join(f"{path}={value}" for path, value in self.choices.items())
 
     def change(self, outputs: Iterable[str] | None = None) -> float:
-        """Return the largest change of some outputs, of all if not given."""
+        """Return the largest change of the given outputs, or of all."""
         return max((self.largest[name] for name in (self.largest if outputs is None else outputs)), default=0.0)
 
     @property
     def worst(self) -> str:
-        """The output that changes most."""
+        """The output with the largest change."""
         return max(self.largest, key=lambda name: self.largest[name])
 
     def cheaper(self, other: EffectRow) -> bool:
-        """Return whether it takes less time; where that cannot be decided, fewer operations and then fewer steps."""
+        """Return whether the variant takes less time; within the noise, fewer operations, then fewer steps decide."""
         if not as_fast(self, other):
             return self.seconds < other.seconds
         return (self.operations, self.steps) < (other.operations, other.steps)
 
 
 def as_fast(one: EffectRow, other: EffectRow) -> bool:
-    """Return whether the times of two variants cannot be distinguished."""
+    """Return whether the times of two variants agree within the noise."""
     return abs(one.seconds - other.seconds) <= POLICY.study.noise * other.seconds
 
 
 @dataclass(frozen=True)
 class Interaction:
-    """What two effects change together beyond the sum of what they change alone, by output, as a fraction of its range."""
+    """Interaction of two effects: the change by both minus the sum of the single changes, as a fraction of the range."""
 
     first: Mapping[str, Any]
     second: Mapping[str, Any]
@@ -86,7 +86,7 @@ class Interaction:
 
     @property
     def largest(self) -> float:
-        """The largest of all outputs."""
+        """The largest interaction of all outputs."""
         return max(self.size.values(), default=0.0)
 
 
@@ -96,9 +96,9 @@ def row(choices: Mapping[str, Any], found: Measurement, reference: Measurement) 
     Parameters
     ----------
     choices : mapping of str to value
-        What is switched.
+        Switched effects.
     found, reference : Measurement
-        What the variant and the reference gave.
+        Measurements of the variant and of the reference.
     """
     if found.error:
         return EffectRow(dict(choices), error=found.error)
@@ -128,9 +128,9 @@ def interaction(
     Parameters
     ----------
     first, second : (mapping of str to value, Measurement)
-        What is switched, and what that alone gave.
+        Switched effects, and their measurement alone.
     both, reference : Measurement
-        What both together and the reference gave.
+        Measurements of both together, and of the reference.
     """
     if both.error:
         return Interaction(first[0], second[0], {}, both.error)

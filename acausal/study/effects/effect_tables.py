@@ -20,11 +20,11 @@ def changes(rows: Labelled, outputs: Sequence[str], rms: bool = False) -> Table:
     Parameters
     ----------
     rows : sequence of (str, EffectRow)
-        The rows, each with what it is called.
+        The rows, each with its label.
     outputs : sequence of str
-        Whose changes.
+        Outputs whose changes are shown.
     rms : bool
-        Root mean squares as well.
+        Show root mean squares as well.
     """
     return _variants(
         rows,
@@ -34,23 +34,23 @@ def changes(rows: Labelled, outputs: Sequence[str], rms: bool = False) -> Table:
 
 
 def brief_changes(rows: Labelled) -> Table:
-    """Return one change of each row, the largest, and the output that it is in.
+    """Return the largest change of each row, and its output.
 
     Parameters
     ----------
     rows : sequence of (str, EffectRow)
-        The rows, each with what it is called.
+        The rows, each with its label.
     """
     return _variants(rows, ("largest", "in"), lambda row: [number(row.change()), row.worst])
 
 
 def together(interactions: Iterable[tuple[Interaction, str]]) -> Table:
-    """Return what pairs of effects do together.
+    """Return the table of interactions of pairs.
 
     Parameters
     ----------
     interactions : iterable of (Interaction, str)
-        Each with the output to be told, "" where it failed.
+        Each with the output to show, "" if the pair failed.
     """
     body = []
     for i, output in interactions:
@@ -60,12 +60,12 @@ def together(interactions: Iterable[tuple[Interaction, str]]) -> Table:
 
 
 def sets(cheapest: Mapping[str, EffectRow]) -> Table:
-    """Return the cheapest sets.
+    """Return the table of the cheapest sets.
 
     Parameters
     ----------
     cheapest : mapping of str to EffectRow
-        By the output that they are for, or all outputs.
+        Rows by target: an output, or all outputs.
     """
     body = [
         [name, row.name or "nothing", *_costs(row), number(row.change(None if name == ALL else [name]))]
@@ -75,14 +75,14 @@ def sets(cheapest: Mapping[str, EffectRow]) -> Table:
 
 
 def columns(rows: Labelled, outputs: Sequence[str]) -> dict[str, list[Any]]:
-    """Return every figure by the names of the columns of the CSV.
+    """Return all figures by the names of the columns of the CSV file.
 
     Parameters
     ----------
     rows : sequence of (str, EffectRow)
         The rows, each with its kind.
     outputs : sequence of str
-        Whose changes.
+        Outputs whose changes are listed.
     """
     table: dict[str, list[Any]] = {"kind": [kind for kind, _ in rows], "choices": [row.name for _, row in rows]}
     for name in outputs:

@@ -1,4 +1,4 @@
-"""Effects: what a study of effects found, as tables, files and choices to apply."""
+"""Effects: the result of a study of effects, with tables, files and choices to apply."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ELSEWHERE = "(the changes of every output: --csv FILE, --markdown FILE)"
 
 @dataclass(frozen=True)
 class Effects:
-    """What the effects of a scene change and cost.
+    """Changes and costs of the effects of a scene.
 
     Parameters
     ----------
@@ -33,23 +33,23 @@ class Effects:
     effects : tuple of Effect
         All effects of the fullest scene.
     reference, standing : EffectRow
-        What the others are compared with, and the scene as it stands.
+        The reference of all comparisons, and the scene with its own choices.
     refused : str
         Why the fullest scene is not the reference, "" if it is.
     floor : EffectRow
-        The reference at a tenth of the tolerance: changes below its own are those of the integration.
+        The reference at a tenth of the tolerance: smaller changes are integration errors.
     rows : tuple of EffectRow
-        One switched effect each, the largest change first.
+        Rows with one switched effect each, the largest change first.
     interactions : tuple of Interaction
-        Pairs, the largest interaction first.
+        Interactions of pairs, the largest first.
     untried : int
-        Number of pairs that were left out.
+        Number of untried pairs.
     idle : tuple of mapping
-        Switches that leave the equations as they are: the scene does not call for the effect.
+        Switches that leave the equations unchanged, as the effect plays no role in the scene.
     cheapest : mapping of str to EffectRow
-        The cheapest set for "all outputs" and, where there are several, for each output.
+        The cheapest set for "all outputs" and, if there are several, for each output.
     choices : mapping of str to mapping
-        Every choice of these sets by path.
+        All choices of these sets by path.
 
     Examples
     --------
@@ -75,11 +75,11 @@ class Effects:
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """Names of what was compared."""
+        """Names of the compared outputs."""
         return tuple(self.reference.largest)
 
     def switched(self, name: str = ALL) -> dict[str, Any]:
-        """Return the choices of a cheapest set that the scene does not make as it stands."""
+        """Return the choices of a cheapest set that differ from the scene's own."""
         standing = {effect.path: effect.value for effect in self.effects}
         return {path: value for path, value in self.choices[name].items() if not same(value, standing[path])}
 
@@ -93,7 +93,7 @@ class Effects:
         return "\n\n".join([_wrap(self._heading()), shown, *found, "\n".join(map(_wrap, self._recommendation()))])
 
     def to_markdown(self, path: str | Path) -> None:
-        """Write everything as Markdown, the root mean square changes as well.
+        """Write everything as Markdown, including root mean square changes.
 
         Parameters
         ----------
@@ -112,7 +112,7 @@ class Effects:
             file.write("\n\n".join(p.markdown() if isinstance(p, Table) else p for p in parts) + "\n")
 
     def to_csv(self, path: str | Path) -> None:
-        """Write a row for each variant: what it is for, its choices, changes and costs.
+        """Write a row for each variant: kind, choices, changes and costs.
 
         Parameters
         ----------
@@ -147,7 +147,7 @@ class Effects:
         return words
 
     def _labelled(self) -> list[tuple[str, EffectRow]]:
-        """The rows that are shown, each with what it is called."""
+        """Return the rows to show, each with its label."""
         labelled = [(row.name, row) for row in self.rows]
         if self.standing.choices:
             labelled.append(("the scene as it stands", self.standing))

@@ -1,4 +1,4 @@
-"""Send a model to another process, also one of a file that the other process cannot import."""
+"""Pickling of models for other processes, including models of files that these cannot import."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ UNSENDABLE = (TypeError, AttributeError, ValueError, RecursionError, pickle.Pick
 
 @alone
 def pack(model: Any, home: str = "") -> bytes:
-    """Turn a model that is not built, or values that are given to one, into bytes.
+    """Pickle a model before instantiation, or values for one.
 
-    Classes of a user's own file, and of files beside it, go along; those of packages are imported by the receiver.
+    Classes of the user's file, and of files beside it, are pickled by value; those of packages are imported by the receiver.
 
     Parameters
     ----------
@@ -39,17 +39,17 @@ def pack(model: Any, home: str = "") -> bytes:
     Raises
     ------
     DeclarationError
-        If something in it cannot be sent, such as an open file; by its name.
+        If something in it cannot be pickled, such as an open file; the message names it.
     """
     with _by_value(sys.modules[home or type(model).__module__]):
         try:
             return _sent(model)
         except UNSENDABLE as error:
-            what = unsendable(model, _sends) or f"it holds what cannot be sent: {error}"
-            name = type(model).__name__ if isinstance(model, Template) else "what is given"
+            what = unsendable(model, _sends) or f"it contains an object that cannot be sent: {error}"
+            name = type(model).__name__ if isinstance(model, Template) else "the given value"
             raise DeclarationError(
-                f"{name} cannot be sent to the workers of a study: {what}. Give what can be copied, such as the name of a file "
-                "in place of an open one, and make the rest from it in equations() or in a part."
+                f"{name} cannot be sent to the workers of a study: {what}. Give data that can be copied, such as the name of a file "
+                "in place of an open file, and create the rest in equations() or in a part."
             ) from None
 
 
@@ -68,7 +68,7 @@ def _sends(value: Any) -> bool:
 
 
 def unpack(data: bytes) -> Any:
-    """Return the model, or the values, in this process.
+    """Return the model, or the values, that `pack` pickled.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def unpack(data: bytes) -> Any:
 
 
 class _Pickler(cloudpickle.Pickler):
-    """Keeps what the other process has of its own, the same object: symbols and marks of the language."""
+    """Pickles symbols and sentinels of the language as references to the receiver's own objects."""
 
     def reducer_override(self, obj: Any) -> Any:
         if isinstance(obj, ca.SX):
@@ -91,8 +91,8 @@ class _Pickler(cloudpickle.Pickler):
 
 @contextmanager
 def _by_value(module: ModuleType) -> Iterator[None]:
-    """Let classes and functions of a file, and of files beside it that are in no package, be sent as they are."""
-    # The script that runs is in the list under two names, and is sent as it is in any case.
+    """Pickle classes and functions of a file, and of files beside it outside packages, by value."""
+    # The running script is listed under two names; cloudpickle pickles __main__ by value anyway.
     found = {m.__name__: m for m in list(sys.modules.values()) if _beside(m, module) and m.__name__ in sys.modules}
     found.pop("__main__", None)
     for m in found.values():

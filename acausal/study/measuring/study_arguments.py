@@ -1,4 +1,4 @@
-"""What studies require of their arguments before anything is run."""
+"""Checks of the arguments of studies, before anything is run."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from acausal.simulation.stop_time import check_stop_time, own_stop_time
 
 
 def stop_time_of(model: Component, given: float | None, values: Mapping[str, Any]) -> float:
-    """Return the stop time that is given, or that of the model, in s.
+    """Return the given stop time, or that of the model, in s.
 
     Parameters
     ----------
     model : Component
-        Its attribute `stop_time` is its own.
+        The model, which may declare `stop_time`.
     given : float, optional
         In s.
     values : mapping of str to value
@@ -34,14 +34,14 @@ def stop_time_of(model: Component, given: float | None, values: Mapping[str, Any
 
 
 def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, ...]:
-    """Return the names of what is compared, entries of arrays one by one.
+    """Return the names of the compared scalars; arrays entry by entry.
 
     Parameters
     ----------
     compiled : CompiledModel
         The model.
     patterns : sequence of str
-        Paths, with * and ?; if empty, what the model's attribute `compared` names, or else its outputs.
+        Paths, with * and ?; if empty, those in the model's attribute `compared`, or else its outputs.
     """
     asked = items("outputs", patterns, '["x", "y"]')
     own = getattr(type(compiled.tree), "compared", ())
@@ -58,16 +58,16 @@ def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, .
 
 
 def items(name: str, given: Any, example: str) -> tuple[Any, ...]:
-    """Return what a list holds, or refuse what is not a list.
+    """Return the items of a list argument; raise DeclarationError if it is not a list.
 
     Parameters
     ----------
     name : str
-        Of the argument.
+        Name of the argument.
     given : object
-        What was given.
+        Its value.
     example : str
-        What could be given.
+        A valid value, for the message.
     """
     if isinstance(given, str | Mapping) or not isinstance(given, Iterable):
         raise DeclarationError(f"{name} is {shown(given)}; it must be a list, such as {name}={example}.")
@@ -75,16 +75,16 @@ def items(name: str, given: Any, example: str) -> tuple[Any, ...]:
 
 
 def table_of(name: str, given: Any, example: str) -> dict[str, Any]:
-    """Return a dictionary of names, or refuse what is none.
+    """Return a dictionary argument; raise DeclarationError if it is not a dictionary with names as keys.
 
     Parameters
     ----------
     name : str
-        Of the argument.
+        Name of the argument.
     given : object
-        What was given; None is an empty one.
+        Its value; None means empty.
     example : str
-        What could be given.
+        A valid value, for the message.
     """
     if given is not None and not (isinstance(given, Mapping) and all(isinstance(key, str) for key in given)):
         raise DeclarationError(f"{name} is {shown(given)}; it must be a dictionary, such as {name}={example}.")
@@ -92,7 +92,7 @@ def table_of(name: str, given: Any, example: str) -> dict[str, Any]:
 
 
 def check_run(intervals: int, repeats: int, limit: float) -> None:
-    """Refuse what no run can have.
+    """Raise DeclarationError for invalid numbers of intervals or repeats, or an invalid limit.
 
     Parameters
     ----------
@@ -108,12 +108,12 @@ def check_run(intervals: int, repeats: int, limit: float) -> None:
 
 
 def check_counts(least: int = 1, **counts: Any) -> None:
-    """Refuse what is not a whole number, or less than the least.
+    """Raise DeclarationError if a value is not a whole number of at least `least`.
 
     Parameters
     ----------
     least : int
-        The least value.
+        The smallest allowed value.
     **counts : object
         Values by the name of the argument.
     """
@@ -123,12 +123,12 @@ def check_counts(least: int = 1, **counts: Any) -> None:
 
 
 def check_shares(example: float, **shares: Any) -> None:
-    """Refuse what is not a number between 0 and 1.
+    """Raise DeclarationError if a value is not a number between 0 and 1.
 
     Parameters
     ----------
     example : float
-        What could be given.
+        A valid value, for the message.
     **shares : object
         Values by the name of the argument.
     """
