@@ -173,17 +173,15 @@ class Effects:
 
     def _interaction_words(self, found: bool) -> str:
         if found:
-            words = "An interaction is what both change together beyond the sum of what each changes alone."
+            words = "An interaction is the change by both effects minus the sum of their single changes."
         else:
-            words = (
-                f"None of {len(self.interactions)} pairs interacts: what both change is the sum of what each changes."
-            )
+            words = f"None of {len(self.interactions)} pairs interacts: the change by both is the sum of the single changes."
         if self.untried:
-            words += f" {self.untried} further pairs, whose effects change less, were not tried."
+            words += f" {self.untried} further pairs with smaller changes were not tried."
         return words
 
     def _worth(self) -> list[tuple[Interaction, str]]:
-        """Interactions above the errors of the integration and a part of the accuracy, and the output where it is most so."""
+        """Return interactions above the integration error and a fraction of the accuracy, with the most affected output."""
         errors = self.floor.largest
         least = {name: max(POLICY.study.worth * self.accuracy, 3 * errors.get(name, 0.0)) for name in self.outputs}
         worth = []
@@ -199,7 +197,7 @@ class Effects:
             yield f"For all outputs: {_praise(best, self.reference)}."
         else:
             yield (
-                f"For all outputs together nothing can be left out: what saves time changes one of them by more than "
+                f"For all outputs together nothing can be left out: every saving changes one of them by more than "
                 f"{self.accuracy:g}."
             )
         groups: dict[str, list[str]] = {}
@@ -210,14 +208,14 @@ class Effects:
             yield f"For {' or '.join(names)} alone: {words}."
         if not self.refused and not standing.error and standing.change() > self.accuracy:
             yield (
-                f"The scene as it stands does not reach it: it is {number(standing.change())} from the fullest "
+                f"The scene as it stands is less accurate: it differs by {number(standing.change())} from the fullest "
                 f"({standing.worst})."
             )
         for name, error in self.floor.largest.items():
             if error > self.accuracy:
                 yield (
-                    f"The integration itself is off by {number(error)} in {name}, so that smaller changes of it mean "
-                    f"nothing: take a smaller tolerance than {self.tolerance:g}, or leave that output out."
+                    f"The integration error of {name} is {number(error)}, so smaller changes of it are meaningless: take a "
+                    f"tolerance below {self.tolerance:g}, or leave that output out."
                 )
         switched = " ".join(f"--set {path}={value}" for path, value in self.switched().items())
         if switched:
@@ -225,7 +223,7 @@ class Effects:
 
 
 def _praise(row: EffectRow, reference: EffectRow) -> str:
-    """Name a set and what it saves."""
+    """Describe a set and its saving."""
     if not row.choices:
         return "all effects of the reference"
     if as_fast(row, reference):

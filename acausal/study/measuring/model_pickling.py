@@ -48,8 +48,8 @@ def pack(model: Any, home: str = "") -> bytes:
             what = unsendable(model, _sends) or f"it contains an object that cannot be sent: {error}"
             name = type(model).__name__ if isinstance(model, Template) else "the given value"
             raise DeclarationError(
-                f"{name} cannot be sent to the workers of a study: {what}. Give data that can be copied, such as the name of a file "
-                "in place of an open file, and create the rest in equations() or in a part."
+                f"{name} cannot be sent to the workers of a study: {what}. Give data that can be copied, such as the name of a "
+                "file in place of an open file, and create the rest in equations() or in a part."
             ) from None
 
 

@@ -1,4 +1,4 @@
-"""The reference of a study: refined until it no longer changes, or read from a file."""
+"""The reference of a study: refined until it converges, or read from a file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Measure = Callable[[Iterable[Case]], Sequence[Measurement]]
 
 @dataclass(frozen=True)
 class Reference:
-    """What a study compares with, and how well it is known.
+    """The reference of a study and its uncertainty.
 
     Parameters
     ----------
@@ -31,13 +31,13 @@ class Reference:
     values : mapping of str to array, shape (times,)
         Outputs by name.
     agreement : mapping of str to mapping of str to float
-        What it was compared with: the largest deviation of each output, as a fraction of its range.
+        Largest deviation of each output, as a fraction of its range, by what the reference was compared with.
     asked : float
         The requested deviation.
     text : str
-        Where it comes from.
+        Its origin, for tables.
     case : Case or None
-        How it was computed, where it was.
+        The case that computed it; None if it was read.
     """
 
     times: np.ndarray
@@ -49,12 +49,12 @@ class Reference:
 
     @property
     def floors(self) -> dict[str, float]:
-        """Errors of each output below which none can be distinguished."""
+        """Uncertainty of each output: smaller errors cannot be distinguished."""
         return {name: max((a[name] for a in self.agreement.values()), default=0.0) for name in self.values}
 
     @property
     def floor(self) -> float:
-        """Errors below it cannot be distinguished."""
+        """Largest uncertainty of all outputs."""
         return max(self.floors.values(), default=0.0)
 
     def __str__(self) -> str:
@@ -70,16 +70,16 @@ class Reference:
 
 
 def make(measure: Measure, formulations: Sequence[Formulation], case: Case, least: float, asked: float) -> Reference:
-    """Make the reference from the model itself, where there are any by formulations that a tolerance refines.
+    """Compute the reference from the model itself, preferably by formulations that are refined by a tolerance.
 
     Parameters
     ----------
     measure : callable
         Measures cases in parallel.
     formulations : sequence of Formulation
-        Those with the same limit; two of them check each other.
+        Formulations that converge to the same solution; two of them check each other.
     case : Case
-        Settings that all cases have in common.
+        Common settings of all cases.
     least : float
         The tightest tolerance of the study.
     asked : float
@@ -96,31 +96,31 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
 
 
 def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Reference:
-    """Read a table as `simulate --csv` writes it.
+    """Read a table in the format of `simulate --csv`.
 
     Parameters
     ----------
     path : str or Path
         Name of the file: `time`, then outputs.
     outputs : sequence of str
-        Outputs that are compared.
+        The compared outputs.
     times : array, shape (times,)
-        Of the study, in s.
+        Times of the study, in s.
     """
     return matching(read_csv(path, "the reference"), outputs, times)
 
 
 def matching(table: Columns, outputs: Sequence[str], times: np.ndarray) -> Reference:
-    """Take a table as the reference.
+    """Make a reference from a table.
 
     Parameters
     ----------
     table : Columns
-        What was read.
+        The table.
     outputs : sequence of str
-        Outputs that are compared.
+        The compared outputs.
     times : array, shape (times,)
-        Of the study, in s.
+        Times of the study, in s.
     """
     missing = [name for name in ("time", *outputs) if name not in table.head]
     if missing and all(map(_is_number, table.head)):
@@ -144,7 +144,7 @@ def matching(table: Columns, outputs: Sequence[str], times: np.ndarray) -> Refer
 
 
 def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked: float) -> Reference:
-    """Double the sizes and tighten the tolerance until nothing changes and two formulations of one limit agree."""
+    """Double the sizes and tighten the tolerance until the result converges and two formulations agree."""
     state, best = _State(tuple(forms), start.tolerance), None
     for _ in range(STUDY.rounds):
         now, state, why = _look(measure, state, start, asked)
@@ -157,7 +157,7 @@ def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked:
 
 @dataclass(frozen=True)
 class _State:
-    """Where the refinement is: formulations still in it, tolerance, and doublings of the finest sizes."""
+    """State of the refinement: remaining formulations, tolerance, and doublings of the finest sizes."""
 
     forms: tuple[Formulation, ...]
     tolerance: float
@@ -165,7 +165,10 @@ class _State:
 
 
 def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[Reference | None, _State, str]:
-    """Compare with coarser elements, another formulation and a looser tolerance; return what to refine, or what failed."""
+    """Compare with coarser elements, another formulation and a looser tolerance.
+
+    Returns the reference, None if all runs failed; the next refinement; and why the refinement has to end, or "".
+    """
     case, n = replace(start, tolerance=state.tolerance), len(state.forms)
     coarse = [_at(case, form, max(0, form.steps - 2 + state.level)) for form in state.forms]
     fine = [_at(case, form, form.steps - 1 + state.level) for form in state.forms]
@@ -173,10 +176,10 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     pairs = [(a, b, form) for a, b, form in zip(runs[:n], runs[n:], state.forms, strict=True) if not a.error + b.error]
     if not pairs:
         return None, state, _failed(runs)
-    # The two that change least go on: they converge fastest.
+    # Keep the two that change least: they converge fastest.
     pairs = sorted(pairs, key=lambda pair: worst(pair[0].values, pair[1].values))[:2]
     coarser, best, _ = pairs[0]
-    # As many elements as there can be leave nothing to compare with.
+    # At the maximum number of elements there is no coarser run to compare with.
     agreement = {"coarser elements": _distances(coarser, best)} if coarser.case != best.case else {}
     agreement |= {other.case.formulation: _distances(other, best) for _, other, _ in pairs[1:]}
     elements = max((max(found.values()) for found in agreement.values()), default=0.0)
@@ -189,7 +192,7 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     why = _failed(runs) if len(forms) < min(n, 2) else ""
     tighten = tolerance > max(asked, elements / 3) and state.tolerance / STUDY.tighter >= STUDY.least
     if not tighten and all(a.case == b.case for a, b, _ in pairs):
-        why = why or "there are no greater numbers of elements"
+        why = why or "the maximum number of elements is reached"
     after = (
         _State(forms, state.tolerance / STUDY.tighter, state.level)
         if tighten
@@ -199,14 +202,14 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
 
 
 def _ended(found: Reference | None, why: str) -> Reference:
-    """Report why the refinement ended before it was good enough."""
+    """Note why the refinement ended early, or raise SimulationError without a result."""
     if found is None:
         raise SimulationError(f"there is no reference: {why}. Give one by reference=, or other formulations.")
     return replace(found, text=f"{found.text} ({why})") if why else found
 
 
 def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
-    """Tighten the tolerance of a model without elements, and check by another way of integration."""
+    """Tighten the tolerance of a model without elements, and check by another method."""
     found, best, looser = (
         None,
         measure([case])[0],
@@ -226,7 +229,7 @@ def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
 
 
 def _stepped(measure: Measure, case: Case, dt: float, asked: float) -> Reference:
-    """Halve the steps of a formulation that has its own."""
+    """Halve the steps of a formulation with steps of its own."""
     found, why = None, ""
     longer, best = measure([replace(case, dt=dt), replace(case, dt=dt / 2)])
     for _ in range(STUDY.rounds):
@@ -241,7 +244,7 @@ def _stepped(measure: Measure, case: Case, dt: float, asked: float) -> Reference
 
 
 def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference:
-    """Compare with loops closed in the other way, or with the other integrator, where `simulate` ran it."""
+    """Compare a reference by `simulate` with the other treatment of loops, or with the other integrator."""
     if best.case.run is not None:
         return found
     if best.constraints in ("states", "projection"):

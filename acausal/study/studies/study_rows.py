@@ -16,14 +16,14 @@ from acausal.study.studies.reference import Reference
 
 STUDY = POLICY.study
 
-# What limits the accuracy of a case.
+# Causes that limit the accuracy of a case.
 TOLERANCE, STEP, ELEMENTS, MODEL, REFERENCE = "tolerance", "step", "elements", "model", "reference"
-UNKNOWN = "unknown"  # a single tolerance or step tells nothing about its part
+UNKNOWN = "unknown"  # with a single tolerance or step its share of the error cannot be estimated
 
 
 @dataclass(frozen=True)
 class StudyRow:
-    """A case against the reference.
+    """A case compared with the reference.
 
     Parameters
     ----------
@@ -32,13 +32,13 @@ class StudyRow:
     errors : mapping of str to (float, float)
         Largest and root mean square error of each output, as fractions of its range.
     limit : str
-        What limits the accuracy: "tolerance", "step" (of a run with steps of its own), "elements" (of which there are too
-        few), "model" (the formulation has another limit than the reference), "reference" (which is not known better), or
-        "unknown" (one of them, but with a single tolerance or step nothing tells which).
+        Cause that limits the accuracy: "tolerance", "step" (of an integrator with steps of its own), "elements" (too few),
+        "model" (the formulation converges to another solution than the reference), "reference" (its uncertainty), or
+        "unknown" (a single tolerance or step does not allow an estimate).
     front : bool
-        Whether no other case is both faster and more accurate.
+        Whether the row is Pareto-optimal: no other case is both faster and more accurate.
     remark : str
-        Why it does not count; "" if it does.
+        Why the row does not count; "" if it counts.
     """
 
     measurement: Measurement
@@ -49,12 +49,12 @@ class StudyRow:
 
     @property
     def case(self) -> Case:
-        """What was run."""
+        """The case."""
         return self.measurement.case
 
     @property
     def seconds(self) -> float:
-        """Solve time."""
+        """Solve time in s."""
         return self.measurement.solve_seconds
 
     @property
@@ -86,11 +86,11 @@ def rows_of(
     Parameters
     ----------
     measurements : sequence of Measurement
-        In the order of the rows.
+        Measurements in the order of the rows.
     reference : Reference
-        What is right.
+        The reference.
     formulations : sequence of Formulation
-        Those of the study.
+        Formulations of the study.
     """
     rows = [_compared(m, reference) for m in measurements]
     good = [row for row in rows if not row.remark]
@@ -103,16 +103,16 @@ def rows_of(
 
 
 def pareto(rows: Sequence[StudyRow], floor: float = 0.0, output: str | None = None) -> list[StudyRow]:
-    """Return the rows that no other one beats in time and error, the fastest first.
+    """Return the Pareto-optimal rows in time and error, the fastest first.
 
     Parameters
     ----------
     rows : sequence of StudyRow
-        With errors.
+        Rows with errors.
     floor : float
-        Errors below it cannot be distinguished.
+        Uncertainty: smaller errors count as equal.
     output : str, optional
-        Whose error; the largest of all outputs if not given.
+        Output whose error counts; the largest error of all outputs if not given.
     """
     known = {row.case: max(row.error_of(output), floor) for row in rows}
     best: list[StudyRow] = []
@@ -132,7 +132,7 @@ def _compared(m: Measurement, reference: Reference) -> StudyRow:
 
 
 def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms: Mapping[str, Formulation]) -> str:
-    """Return the cause of the error: at least half of it must come from there."""
+    """Return the cause of at least half of the error."""
     half, form = row.error / 2, forms[row.case.formulation]
     exact = _has_its_limit(row.case, form, reference)
     if reference.floor > half:
@@ -150,7 +150,7 @@ def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms:
 
 
 def _has_its_limit(case: Case, form: Formulation, reference: Reference) -> bool:
-    """Whether a case comes to the reference in the limit: an exact formulation, and no switch that changes the model."""
+    """Return whether a case converges to the reference: its formulation is exact, and no switch changes the model."""
     made = reference.case
     if made is None:
         return form.exact
@@ -161,7 +161,7 @@ def _has_its_limit(case: Case, form: Formulation, reference: Reference) -> bool:
 
 
 def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Reference) -> float | None:
-    """Estimate what the tolerance or the step does, from the same equations at another one; None where there is no other."""
+    """Estimate the error due to the tolerance or the step from another run of the same equations; None if there is none."""
     own = row.case.refined(0.0)
     series = sorted((r for r in good if r.case.refined(0.0) == own), key=lambda r: r.case.control)
     if len(series) < 2:
@@ -171,15 +171,15 @@ def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Referen
     ratio = row.case.control / series[1].case.control
     if row.case.dt is None:
         return _between(row, series[1], reference) * ratio**STUDY.tolerance_power
-    # Of steps that were shortened, so that outputs lie at their ends, the numbers tell the ratio. Their error is taken to go
-    # with the step, the slowest way in which it does.
+    # Steps may have been shortened to end at outputs, so the ratio of the step counts is used. First order is assumed, the
+    # slowest convergence.
     many, few = (r.measurement.steps for r in series[:2])
     ratio = few / many if few else ratio
     return _between(row, series[1], reference) * (ratio / (1 - ratio) if ratio < 1 else 1.0)
 
 
 def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, reference: Reference) -> float:
-    """Estimate what the number of elements does, from the same formulation with another one."""
+    """Estimate the error due to the number of elements from another run of the same formulation."""
 
     def family(case: Case) -> Case:
         settings = {path: value for path, value in case.settings.items() if path not in form.refine}

@@ -1,4 +1,4 @@
-"""The table of a study: every figure by column, and the part that is shown."""
+"""The tables of a study: all figures by column, and the table for readers."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ WORDS = ("", "formulation", "size", "method", "constraints", "limited by")
 
 
 def columns(rows: Sequence[StudyRow], switches: Sequence[str] = ()) -> dict[str, list[Any]]:
-    """Return everything that is known of each row, by the names of the columns of the CSV.
+    """Return all figures of the rows by the names of the columns of the CSV file.
 
     Parameters
     ----------
     rows : sequence of StudyRow
         The rows.
     switches : sequence of str
-        Paths that were varied.
+        Varied paths.
     """
     outputs = dict.fromkeys(name for row in rows for name in row.errors)
     table: dict[str, list[Any]] = {
@@ -48,16 +48,16 @@ def columns(rows: Sequence[StudyRow], switches: Sequence[str] = ()) -> dict[str,
 
 
 def cells(rows: Sequence[StudyRow], reference: Reference, switches: Sequence[str]) -> Table:
-    """Return the table to be read: what is the same in every row is left out.
+    """Return the table for readers, without options that are the same in every row.
 
     Parameters
     ----------
     rows : sequence of StudyRow
         The rows.
     reference : Reference
-        Determines which errors are too small to be known.
+        The reference, whose uncertainty bounds the errors from below.
     switches : sequence of str
-        Paths that were varied.
+        Varied paths.
     """
     table = columns(rows, switches)
     options = ("max_order", "method", "constraints")
