@@ -1,4 +1,4 @@
-"""The bound model as a list of classes and components, and a tree of stand-ins that is made from them."""
+"""The tree of components of a bound model as JSON data, and back as a tree of stand-ins for their classes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Add = Callable[[ca.SX | ca.DM], int]
 Decode = Callable[[Any], Any]
 BASES: tuple[type[Component], ...] = (Connector, Record, Model, Component)
 PLAIN = (bool, int, float, str, type(None))
-# What is read of a field after compiling, beside description, unit and shape.
+# Attributes of fields that are read after compiling, besides description, unit and shape.
 MORE: dict[type, tuple[str, ...]] = {
     f.Variable: ("causality", "flow", "root", "fixed"),
     f.Parameter: ("minimum", "positive"),
@@ -40,7 +40,7 @@ KINDS = {kind.__name__.lower(): kind for kind in MORE}
 
 
 def evaluated(tree: Component) -> dict[str, Expr | str]:
-    """Return the value of every variable, parameter and observed quantity by its path, or why it has none."""
+    """Return the value of every variable, parameter and observed quantity by path, or the message why it has none."""
     found: dict[str, Expr | str] = {}
     for component in walk(tree):
         for name, declared in component.fields.items():
@@ -54,7 +54,7 @@ def evaluated(tree: Component) -> dict[str, Expr | str]:
 
 
 def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stated], add: Add) -> dict[str, Any]:
-    """Return classes and components of a bound model, what contains others before these.
+    """Return classes and components of a bound model as JSON data, owners before their parts.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stat
     values : mapping of str to Expr or str
         From `evaluated`.
     stated : list of (statement, Origin)
-        Requirements, expectations and separations that are kept.
+        Requirements, expectations and separations to include.
     add : callable
         From an expression to its number.
     """
@@ -92,7 +92,7 @@ def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stat
 
 
 def _kind(component: Component) -> tuple[Any, ...]:
-    """Class and names of the fields, of which an instance may have ports of its own."""
+    """Return the class and the names of the fields, as an instance may have ports of its own."""
     return type(component), *component.fields
 
 
@@ -123,7 +123,7 @@ def _is_start(value: Any) -> bool:
 def _members(
     component: Component, values: Mapping[str, Expr | str], numbers: Mapping[int, int], add: Add
 ) -> Iterator[tuple[str, Any]]:
-    """Yield what a component has in place of each of its fields."""
+    """Yield each field of a component with its value as JSON data."""
     for name, declared in component.fields.items():
         own, path = vars(component).get(name), join(component._path, name)
         if isinstance(values.get(path), str):
@@ -141,7 +141,7 @@ def _members(
 
 
 def _seen(component: Component, declared: f.Field) -> dict[str, Any]:
-    """Shape and unit as declared, in an instance."""
+    """Return the declared shape and unit, evaluated for an instance."""
     shape = declared.shape(component) if callable(declared.shape) else declared.shape
     unit = declared.unit(component) if callable(declared.unit) else declared.unit
     return {
@@ -151,21 +151,21 @@ def _seen(component: Component, declared: f.Field) -> dict[str, Any]:
 
 
 class StandIn:
-    """What stands for a component whose class is not known."""
+    """Base of the classes that stand for unknown classes of components."""
 
     _states: ClassVar[tuple[Any, ...]] = ()
 
     def requirements(self) -> Iterator[Any]:
-        """Yield what was required where the model was compiled."""
+        """Yield the requirements of the exported component."""
         yield from (s for s in self._states if isinstance(s, Requirement))
 
     def validity(self) -> Iterator[Any]:
-        """Yield what was expected where the model was compiled."""
+        """Yield the expectations and separations of the exported component."""
         yield from (s for s in self._states if not isinstance(s, Requirement))
 
 
 class Shown:
-    """A structural value of which only the text is known."""
+    """A structural value of which only the representation is known."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -175,12 +175,12 @@ class Shown:
 
 
 class Unchecked:
-    """A requirement whose check was a function: what it was asked first is right, of others a warning tells.
+    """A stand-in for the check of a requirement by a function: it accepts the first value, and warns of others.
 
     Parameters
     ----------
     name : str
-        What is required.
+        Subject of the requirement.
     """
 
     def __init__(self, name: str) -> None:
@@ -188,26 +188,26 @@ class Unchecked:
         self.first: np.ndarray | None = None
 
     def __call__(self, value: np.ndarray) -> str:
-        """Find nothing wrong, and warn of a value that is not the first one."""
+        """Accept the value; warn if it is not the first one."""
         if self.first is None:
             self.first = value.copy()
         if not np.array_equal(value, self.first):
             caution(
-                f"`{self.name}` was changed in a model that was loaded without its classes, which know what values it may "
-                "have: this one was not checked."
+                f"`{self.name}` was changed in a model that was loaded without its classes: the new value was not checked, as "
+                "its check is a function of the class."
             )
         return ""
 
 
 def read(said: Mapping[str, Any], decode: Decode) -> Component:
-    """Return the bound model that `written` described.
+    """Return the bound model from its JSON data.
 
     Parameters
     ----------
     said : mapping
         From `written`.
     decode : callable
-        From what JSON says to a value.
+        From JSON data to a value.
     """
     classes = [_made(entry) for entry in said["classes"]]
     components = [cls.__new__(cls) for cls in (classes[entry["class"]] for entry in said["components"])]
@@ -217,16 +217,16 @@ def read(said: Mapping[str, Any], decode: Decode) -> Component:
 
 
 def _made(entry: Mapping[str, Any]) -> type[Component]:
-    """Return a class that has the fields of one that is not known."""
+    """Return a stand-in class with the fields of an unknown class."""
     name, base = entry["name"], {b.__name__: b for b in BASES}[entry["base"]]
     if not name.isidentifier() or keyword.iskeyword(name):
-        raise ValueError("the name of a class is none")
+        raise ValueError("the name of a class is invalid")
     cls: Any = type(name, (StandIn, base), {"__module__": __name__})
     cls.__doc__, cls.start_words = entry["description"], dict(entry["start_words"])
     cls.fields = {field["name"]: _field_of(field) for field in entry["fields"]}
     for own, declared in cls.fields.items():
         if not own.isidentifier() or own.startswith("_"):
-            raise ValueError("the name of a field is none")
+            raise ValueError("the name of a field is invalid")
         if isinstance(declared, f.Observed):
             setattr(cls, own, declared)
     return cls
@@ -256,7 +256,7 @@ def _computed(name: str, component: Any) -> Expr:
 
 
 def _fill(component: Any, entry: Mapping[str, Any], components: list[Any], decode: Decode) -> None:
-    """Give a component what it has."""
+    """Set the fields of a component."""
     said: dict[str, dict[str, Any]] = {}
     own = vars(component)
     own |= {"_path": entry["path"], "_origin": entry["where"], "_is_bound": True, "_said": said}

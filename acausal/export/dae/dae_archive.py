@@ -1,4 +1,4 @@
-"""The archive of an open DAE: its members, and what is refused when one is read."""
+"""The archive of an open DAE: members, checksums, and checks on reading."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ FORMAT, VERSION = "acausal open DAE", 3
 FIRST = "dae.json"
 ARRAYS = ("constants", "operations", "places")
 MEMBERS = ("model.json", "model.mo", *ARRAYS)
-MOST = 1 << 28  # bytes of all members: files of models of a hundred thousand equations have a tenth of that
+MOST = 1 << 28  # limit of the bytes of all members: ten times those of models with a hundred thousand equations
 
 
 def write(path: str | Path, first: Mapping[str, Any], members: Mapping[str, bytes]) -> None:
-    """Write an archive, whole or not at all.
+    """Write an archive atomically.
 
     Parameters
     ----------
     path : str or Path
         Name of the file.
     first : mapping
-        What dae.json says, beside format, version and checksums.
+        Content of dae.json, besides format, version and checksums.
     members : mapping of str to bytes
         The other members.
     """
@@ -44,33 +44,33 @@ def write(path: str | Path, first: Mapping[str, Any], members: Mapping[str, byte
 
 
 def read(path: str | Path) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """Return what dae.json says, and the other members.
+    """Return the content of dae.json, and the other members.
 
     Raises
     ------
     DeclarationError
-        If the file cannot be read, is foreign, of another version, cut or damaged.
+        If the file cannot be read, is not an open DAE, has another version, or is truncated or damaged.
     """
     try:
         with zipfile.ZipFile(Path(path).expanduser()) as archive:
             return _members(path, archive)
     except zipfile.BadZipFile:
-        refuse(path, "it is no open DAE, or it was cut or damaged")
+        refuse(path, "it is not an open DAE, or it is truncated or damaged")
     except (zlib.error, EOFError, NotImplementedError, RuntimeError):
         refuse(path, "it is damaged")
     except (TypeError, ValueError):
-        refuse(path, "its name is none")
+        refuse(path, "its name is invalid")
     except OSError as error:
         refuse(path, str(error.strerror or error))
 
 
 def refuse(path: str | Path, why: str) -> NoReturn:
-    """Raise DeclarationError: why a file is not read."""
+    """Raise DeclarationError with the reason why a file is not read."""
     raise DeclarationError(f"cannot read {shown_name(path)}: {why}.") from None
 
 
 def as_json(value: Any) -> bytes:
-    """Return JSON of one form: the same value gives the same bytes."""
+    """Return JSON in a canonical form: equal values give equal bytes."""
     return json.dumps(value, indent=None, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode()
 
 
@@ -78,7 +78,7 @@ def _members(path: str | Path, archive: zipfile.ZipFile) -> tuple[dict[str, Any]
     entries = archive.infolist()
     names = [entry.filename for entry in entries]
     if FIRST not in names:
-        refuse(path, f"it is an archive, but no open DAE: it has no {FIRST}")
+        refuse(path, f"it is an archive, but not an open DAE: it has no {FIRST}")
     if sum(entry.file_size for entry in entries) > MOST:
         refuse(path, f"its content has more than {MOST >> 20} MB")
     said = archive.read(FIRST)
@@ -87,7 +87,7 @@ def _members(path: str | Path, archive: zipfile.ZipFile) -> tuple[dict[str, Any]
     except ValueError as error:
         refuse(path, f"{FIRST} is damaged: {error}")
     if not isinstance(first, dict) or first.get("format") != FORMAT:
-        refuse(path, f"it is an archive, but no open DAE: {FIRST} does not name the format")
+        refuse(path, f"it is an archive, but not an open DAE: {FIRST} does not name the format")
     if first.get("version") != VERSION:
         refuse(path, f"its format has version {first.get('version')!r}; this acausal reads version {VERSION}")
     if first.get("sha256_of_this") != _own(as_json({**first, "sha256_of_this": ""})):

@@ -1,4 +1,4 @@
-"""What an open DAE says of a model to whoever reads it: variables, parameters, equations, and where their values stand."""
+"""The readable part of an open DAE: variables, parameters and equations, with the numbers of their expressions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Add = Callable[[ca.SX | ca.DM], int]
 
 
 def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | str], add: Add) -> dict[str, Any]:
-    """Return what dae.json says of a model.
+    """Return the content of dae.json on a model.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | st
     p : array
         Values of its free parameters.
     values : mapping of str to Expr or str
-        What can be read by name.
+        Readable quantities by path.
     add : callable
         From an expression to its number.
     """
@@ -59,19 +59,19 @@ def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | st
 
 
 def unknown_names(compiled: CompiledModel) -> tuple[str, ...]:
-    """Return the names of all unknowns, each once: what is integrated in place of a coordinate is told from it."""
+    """Return unique names of all unknowns: the state integrated in place of a projected coordinate gets a prefix."""
     r = compiled.reduced
     projected = {p.state for p in r.plan.constrained.projections}
     return tuple(f"integrated.{name}" if k in projected else name for k, name in enumerate(r.names))
 
 
 def _start(compiled: CompiledModel) -> ca.SX:
-    """Start values of states and algebraic unknowns, in parameters and time."""
+    """Return start values of states and algebraic unknowns as expressions of parameters and time."""
     return compiled.start.function(compiled.reduced.p, time.sx)
 
 
 def _unknowns(compiled: CompiledModel, p: np.ndarray, add: Add) -> Iterator[dict[str, Any]]:
-    """Yield the scalar unknowns of all equations, and how each is found."""
+    """Yield the scalar unknowns of all equations, and how each is computed."""
     r = compiled.reduced
     plan, own = r.plan, r.flat.unknowns
     kinds = dict.fromkeys(plan.states, "state") | dict.fromkeys(plan.algebraic, "algebraic")
@@ -111,7 +111,7 @@ def _equation(compiled: CompiledModel, row: int) -> dict[str, Any]:
 
 
 def _variables(compiled: CompiledModel, values: Mapping[str, Expr | str], add: Add) -> Iterator[dict[str, Any]]:
-    """Yield what can be read by name, as expressions of states, algebraic unknowns, parameters and time."""
+    """Yield the readable quantities as expressions of states, algebraic unknowns, parameters and time."""
     r = compiled.reduced
     found = [
         (field, quantity_of(c, name, field, value))

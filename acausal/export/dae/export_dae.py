@@ -1,4 +1,4 @@
-"""Export a model as an open DAE: its equations for whoever reads them, and for `load_dae`."""
+"""export_dae(): write a model as an open DAE, for `load_dae` and other programs."""
 
 from __future__ import annotations
 
@@ -36,24 +36,24 @@ SHARED = {"time": time, "initial": initial, "feedback": feedback}
 def export_dae(
     model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None
 ) -> None:
-    """Write the equations of a model as an open DAE, an archive that `load_dae` and other programs read.
+    """Write a model as an open DAE, an archive for `load_dae` and other programs.
 
-    It holds variables, parameters and equations with names, units and origins in JSON, all expressions as lists of
-    operations, and the model in Base Modelica; docs/open-dae.md describes it.
+    The archive contains variables, parameters and equations with names, units and origins in JSON, all expressions as lists
+    of operations, and the model in Base Modelica; docs/open-dae.md describes the format.
 
     Parameters
     ----------
     model : Component or CompiledModel
         The model.
     path : str or Path
-        File that is written, whole or not at all.
+        Name of the file, which is written atomically.
     parameters : mapping of str to value, optional
-        Values by path that the model has in the file.
+        Values by path for the file.
 
     Raises
     ------
     ExportError
-        If the file cannot be written, or the model holds something that the file cannot.
+        If the file cannot be written, or the model contains something that the format cannot represent.
     """
     check_writable(path)
     compiled, p = ready(model, parameters)
@@ -92,7 +92,7 @@ def export_dae(
 
 
 def _modelica(compiled: CompiledModel, p: np.ndarray) -> str:
-    """Return the model in Base Modelica, or a comment where it cannot say what the model does."""
+    """Return the model in Base Modelica, or a comment if Base Modelica cannot express it."""
     try:
         return base_modelica(compiled, p)
     except ExportError as error:
@@ -100,7 +100,7 @@ def _modelica(compiled: CompiledModel, p: np.ndarray) -> str:
 
 
 def _stated(compiled: CompiledModel) -> tuple[list[Stated], list[str]]:
-    """Return what components state, and of which requirements only the subject is kept: functions need the classes."""
+    """Return the statements of components, and the subjects of requirements checked by functions, which are left out."""
     kept: list[Stated] = []
     unchecked: list[str] = []
     for statement, origin in compiled.requirements.stated:

@@ -1,4 +1,4 @@
-"""What a model consists of as JSON and back: by lists of fields, each class by its name."""
+"""Conversion of the objects of a model to JSON data and back, by lists of the fields of each class."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ from acausal.structure.constraints import Constrained, Constraint, Projection
 from acausal.structure.system import System
 from acausal.units import BASES, Dimension
 
-# What is left out has no meaning without the classes of a model: `givers` and `repeats`, which explain models that cannot be
-# compiled; `tree`, which is written by itself.
+# Omitted fields: `givers` and `repeats`, which serve messages about models that do not compile; `tree`, which is written
+# separately.
 FIELDS: dict[type, str] = {
     Origin: "path kind where text",
     Initial: "residual text origin",
@@ -74,7 +74,7 @@ _FILES = {Origin: "where", Loop: "where"}
 
 
 def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
-    """Return what JSON can say of a value.
+    """Return a value as JSON data.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
         return int(value)
     if isinstance(value, float):
         return value if np.isfinite(value) else {"number": repr(value)}
-    if isinstance(value, ca.SX | ca.DM):  # of nothing CasADi makes a column of numbers
+    if isinstance(value, ca.SX | ca.DM):  # an empty CasADi expression may be a DM
         return {"expression": add(value)}
     if isinstance(value, np.ndarray) and value.ndim == 1:
         return {"array": value.dtype.kind, "entries": [encoded(v, add) for v in value.tolist()]}
@@ -106,7 +106,7 @@ def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
     if isinstance(value, Dimension):
         return {"unit": [int(e) if e == int(e) else str(e) for e in value.exponents]}
     if type(value) not in FIELDS:
-        raise ExportError(f"an open DAE cannot hold what the model contains here: {value!r}.")
+        raise ExportError(f"an open DAE cannot represent a value of the model: {value!r}.")
     found = {name: encoded(getattr(value, name), add) for name in FIELDS[type(value)].split()}
     if type(value) in _FILES:
         found["where"] = without_folder(found["where"])
@@ -114,7 +114,7 @@ def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
 
 
 def decoded(said: Any, expressions: Any, more: Mapping[str, dict[str, Any]]) -> Any:
-    """Return what JSON said.
+    """Return a value from its JSON data.
 
     Parameters
     ----------
@@ -123,12 +123,12 @@ def decoded(said: Any, expressions: Any, more: Mapping[str, dict[str, Any]]) -> 
     expressions : Reader
         Expressions by their numbers.
     more : mapping of str to dict
-        Fields by the name of their class that are not said.
+        Values of omitted fields, by the name of their class.
 
     Raises
     ------
     ValueError, KeyError, TypeError
-        If it says something else.
+        If the data is invalid.
     """
 
     def again(inner: Any) -> Any:
@@ -156,10 +156,10 @@ def decoded(said: Any, expressions: Any, more: Mapping[str, dict[str, Any]]) -> 
         return {again(k): again(v) for k, v in said["pairs"]}
     exponents = [Fraction(e) if isinstance(e, str) else int(e) for e in said["unit"]]
     if len(exponents) != len(BASES):
-        raise ValueError("a unit is none")
+        raise ValueError("a unit is invalid")
     return Dimension(*exponents)
 
 
 def without_folder(where: str) -> str:
-    """Return a place in a file without the folders of the machine on which it was written."""
+    """Return a place "file:line" without folders, which are specific to a machine."""
     return where.replace("\\", "/").rpartition("/")[2]

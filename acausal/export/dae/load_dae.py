@@ -1,4 +1,4 @@
-"""Read an open DAE: a compiled model, without the classes that made it."""
+"""load_dae(): read an open DAE as a compiled model, without the model's classes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from acausal.result import document
 @fitting
 @alone
 def load_dae(path: str | Path) -> CompiledModel:
-    """Read a model that `export_dae` wrote; its classes are not needed.
+    """Read a model written by `export_dae`; its classes are not needed.
 
     Parameters
     ----------
@@ -34,12 +34,12 @@ def load_dae(path: str | Path) -> CompiledModel:
     Returns
     -------
     CompiledModel
-        It simulates as the model that was written; sizes and effects, which need the classes, are fixed.
+        The model simulates like the original; sizes and effects, which need the classes, are fixed.
 
     Raises
     ------
     DeclarationError
-        If the file cannot be read, is foreign, of another version, cut or damaged.
+        If the file cannot be read, is not an open DAE, has another version, or is truncated or damaged.
     """
     begun = clock.perf_counter()
     first, members = dae_archive.read(path)
@@ -48,7 +48,7 @@ def load_dae(path: str | Path) -> CompiledModel:
         compiled = CompiledModel(reduced, {}, None, declared=settings)
         compiled.parameter_values(None)
     except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError):
-        # The checksums fit: what is wrong was written so.
+        # The checksums are correct, so the writer produced the inconsistency.
         dae_archive.refuse(path, "its content contradicts itself, so that it was not written by export_dae")
     compiled.seconds["load"] = clock.perf_counter() - begun
     return compiled
@@ -56,7 +56,7 @@ def load_dae(path: str | Path) -> CompiledModel:
 
 def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedModel, dict[str, Any]]:
     if tuple(first["operations"]) != NAMES:
-        raise ValueError("the operations are others")
+        raise ValueError("the operations differ from those of this version")
     inside = document(members["model.json"].decode())
     expressions = _expressions(first, members)
 

@@ -330,7 +330,7 @@ def test_cut_files_are_refused(good, tmp_path):
     content = good.read_bytes()
     for length in (0, 1, 100, len(content) // 2, len(content) - 1):
         (tmp_path / "cut.dae").write_bytes(content[:length])
-        assert "it is no open DAE, or it was cut or damaged" in why(tmp_path / "cut.dae")
+        assert "it is not an open DAE, or it is truncated or damaged" in why(tmp_path / "cut.dae")
 
 
 def test_damaged_files_are_refused_or_the_same(good, tmp_path):
@@ -357,13 +357,13 @@ def test_a_member_that_is_changed_missing_or_there_twice_is_refused(good, tmp_pa
     changed = content[name][:at] + other + content[name][at + 1 :]
     assert f"{name} is damaged" in why(packed(tmp_path / "b.dae", {**content, name: changed}))
     less = {k: v for k, v in content.items() if k != name}
-    assert ("no open DAE" if name == dae_archive.FIRST else "each once") in why(packed(tmp_path / "c.dae", less))
+    assert ("not an open DAE" if name == dae_archive.FIRST else "each once") in why(packed(tmp_path / "c.dae", less))
 
 
 def test_foreign_files_are_refused(good, tmp_path):
     content = members(good)
     (tmp_path / "text.dae").write_text("not a model")
-    assert "it is no open DAE" in why(tmp_path / "text.dae")
+    assert "it is not an open DAE" in why(tmp_path / "text.dae")
     assert "it has no dae.json" in why(packed(tmp_path / "a.dae", {"a": b""}))
     assert "does not name the format" in why(packed(tmp_path / "b.dae", {**content, "dae.json": b'{"format": "x"}'}))
     assert "version 4" in why(
