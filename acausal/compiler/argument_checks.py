@@ -41,7 +41,7 @@ def checked_model(given: Any, compiled: bool = False) -> Any:
         raise DeclarationError(f"{what}; give the whole model as it was constructed, such as SpinUp().")
     if isinstance(given, Component):
         raise DeclarationError(
-            f"this {type(given).__name__} is the inside of a compiled model (its `tree`); give the compiled model."
+            f"this {type(given).__name__} is the `tree` of a compiled model; give the compiled model."
         )
     if isinstance(given, Path):
         raise DeclarationError(f"`{given}` is a part of a model; give the whole model, such as SpinUp().")

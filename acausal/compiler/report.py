@@ -165,12 +165,12 @@ def _tell(loop: dict[str, Any]) -> str:
     if loop["undetermined"]:
         text += f"; undetermined, and set to 0 or so that they do no work: {_list(loop['undetermined'])}"
     if loop["singular_start"]:
-        text += "; the start is a singular position: all constraints are kept, the velocity selects the branch"
+        text += "; the start is a singular configuration: all constraints are kept, the velocity selects the branch"
     return text
 
 
 def _redundant(found: list[dict[str, Any]]) -> str:
-    text = f"{_list([one['constraint'] for one in found])}: dropped, as what they say follows from other constraints"
+    text = f"{_list([one['constraint'] for one in found])}: dropped, as they follow from other constraints"
     flows = list(dict.fromkeys(name for one in found for name in one["undetermined"]))
     return text + (
         f"; undetermined, and shared with the other constraints by least norm: {_list(flows)}" if flows else ""

@@ -59,11 +59,11 @@ def animate(
     """
     if isinstance(results, Result):
         raise DeclarationError(
-            'one result is animated by result.animate("run.html"); several by their names, {"rigid": a, "elastic": b}.'
+            'animate one result with result.animate("run.html"), several with a dictionary, {"rigid": a, "elastic": b}.'
         )
     if not isinstance(results, Mapping) or not results or not all(isinstance(r, Result) for r in results.values()):
         raise DeclarationError(
-            f'results are given by the names that are shown, {{"rigid": a, "elastic": b}}, not by {shown(results)}.'
+            f'results is a dictionary of results by name, {{"rigid": a, "elastic": b}}, not {shown(results)}.'
         )
     write(
         {str(name): result for name, result in results.items()},

@@ -170,7 +170,7 @@ def _named(verb: str, path: str | Path) -> Path:
         _refuse(verb, path, "the current directory no longer exists; change to another one")
     except RuntimeError:
         home = str(path).startswith("~")
-        _refuse(verb, path, "there is no such user, or no home directory" if home else "its links lead in a circle")
+        _refuse(verb, path, "there is no such user, or no home directory" if home else "its links form a loop")
     except ValueError:
         _refuse(verb, path, "the name contains the character of code 0")
     # If /dev/stdout is a pipe, it resolves to a name that does not exist.

@@ -32,7 +32,7 @@ def checked_times(time: Any) -> np.ndarray:
     except (TypeError, ValueError):
         times = np.full((1, 1), np.nan)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
-        raise DeclarationError("the times of a result are a vector of finite numbers that increase")
+        raise DeclarationError("the times of a result are a vector of increasing finite numbers")
     return times
 
 
@@ -56,7 +56,7 @@ def checked_columns(
         If a path, an array, a shape or a unit is invalid.
     """
     if not isinstance(values, Mapping):
-        raise DeclarationError('values are arrays by path with their units: {"body.tip.v": (array, "m/s")}')
+        raise DeclarationError('values is a dictionary of arrays with units by path: {"body.tip.v": (array, "m/s")}')
     found = {}
     for path, entry in values.items():
         measured = isinstance(entry, tuple | list) and len(entry) == 2 and isinstance(entry[1], str)

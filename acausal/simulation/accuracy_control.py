@@ -194,7 +194,7 @@ class Search:
     def _tighter(self, numerics: Numerics, tenths: int) -> Numerics:
         smallest = 10 * ACCURACY.smallest
         if numerics.tolerance <= smallest:
-            raise self._refusal(f"a tolerance below {smallest:g} is lost in rounding")
+            raise self._refusal(f"a tolerance below {smallest:g} is lost in round-off")
         return replace(numerics, tolerance=max(_tenth(numerics.tolerance, tenths), smallest))
 
     def _refusal(self, reason: str) -> SimulationError:

@@ -100,7 +100,7 @@ def _periodic_text(problem: Problem, turn: Turning, changing: str) -> str:
     fastest = int(np.argmax(np.abs(turn.rates) / size)) if turn.rates.any() else -1
     what = f"{compiled.states[fastest]} turns" if fastest >= 0 else "time goes on"
     what_it_means = (
-        "Eigenvalues at one position do not tell whether the motion is stable"
+        "Eigenvalues at one position do not determine the stability of the motion"
         if "A" in changing
         else "Responses at one position do not hold at others"
     )

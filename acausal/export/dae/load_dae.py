@@ -49,7 +49,7 @@ def load_dae(path: str | Path) -> CompiledModel:
         compiled.parameter_values(None)
     except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError):
         # The checksums are correct, so the writer produced the inconsistency.
-        dae_archive.refuse(path, "its content contradicts itself, so that it was not written by export_dae")
+        dae_archive.refuse(path, "its content is inconsistent, so it was not written by export_dae")
     compiled.seconds["load"] = clock.perf_counter() - begun
     return compiled
 

@@ -101,7 +101,7 @@ class Study:
             least = min(own, key=lambda row: row.error, default=None)
             if least is not None and least.limit == MODEL:
                 lines.append(
-                    f"{name}: another model than the reference, {least.error:.1e} of the range away at its best"
+                    f"{name}: converges to another solution; its smallest error is {least.error:.1e} of the range"
                 )
         return lines
 

@@ -127,7 +127,7 @@ def _compared(m: Measurement, reference: Reference) -> StudyRow:
         return StudyRow(m, {}, remark=m.error)
     row = StudyRow(m, deviations(m.values, reference.values))
     if row.error > STUDY.runaway:
-        return replace(row, remark=f"it diverged: {row.error:.1g} times the range away from the reference")
+        return replace(row, remark=f"it diverged: the error is {row.error:.1g} times the range")
     return row
 
 

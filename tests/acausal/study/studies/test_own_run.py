@@ -131,7 +131,7 @@ def test_gaps_of_other_models_are_told():
     found = study(Formulation("engine"), Formulation("off", run=off, dt=(0.1, 0.01)))
     assert [row.limit for row in rows(found, "off")] == ["model", "model"]
     (gap,) = found.gaps()
-    assert gap.startswith("off: another model than the reference, 2.3e-02 of the range away at its best")
+    assert gap.startswith("off: converges to another solution; its smallest error is 2.3e-02 of the range")
     assert gap in found.table()
 
 
