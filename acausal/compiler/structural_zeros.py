@@ -31,7 +31,7 @@ class _Zero:
 
     component: Component
     whole: bool
-    other: np.ndarray
+    trial: np.ndarray
     remedy: str
 
 
@@ -57,7 +57,7 @@ def remedy_for_zeros(
     def lacking(*tried: str) -> float:
         """Return how many equations the model lacks with trial values of these, infinity if it rejects them."""
         try:
-            tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path].other for path in tried}})
+            tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path].trial for path in tried}})
             plan_of(tried_flat)
         except (UnbalancedModelError, StructurallySingularError) as error:
             return _lacking(error) or np.inf
@@ -78,8 +78,8 @@ def remedy_for_zeros(
         if clock.perf_counter() < ends and not lacking(*(rest := [p for p in needed if p != path])):
             needed = rest
     ways = [(path,) for path in alone] or [tuple(needed)]
-    gained = [_gained(flat, completed[way], [zeros[path] for path in way]) for way in ways]
-    return _told([zeros[path] for path in alone or needed], bool(alone), gained)
+    gained = [_gained_terms(flat, completed[way], [zeros[path] for path in way]) for way in ways]
+    return _message([zeros[path] for path in alone or needed], bool(alone), gained)
 
 
 def _lacking(error: AcausalError) -> int:
@@ -87,7 +87,7 @@ def _lacking(error: AcausalError) -> int:
     return sum(len(part.variables) - len(part.equations) for part in getattr(error.__context__, "under", ()))
 
 
-def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
+def _message(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
     """Return the message: the unknowns that all remedies determine, and the remedies; one is enough if `alone`."""
     common = [words for name, words in gained[0].items() if all(name in other for other in gained)]
     what = ", ".join(list(dict.fromkeys(common or gained[0].values()))[:SHORT])
@@ -101,7 +101,7 @@ def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
     )
 
 
-def _gained(flat: FlatModel, completed: FlatModel, zeros: list[_Zero]) -> dict[str, str]:
+def _gained_terms(flat: FlatModel, completed: FlatModel, zeros: list[_Zero]) -> dict[str, str]:
     """Return the unknowns that gained terms, by name, with their descriptions in the components of the zeros."""
     before, after = _inside(flat), _inside(completed)
     new = {name for origin, names in after.items() for name in names - before.get(origin, set())}
@@ -133,7 +133,7 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
     parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
     touched = {names[v] for part in parts for v in part.variables if v < len(names)}
     touched |= {origins[e].path for part in parts for e in part.equations if e < len(origins)}
-    moved = _moved(flat, {v for part in parts for v in part.variables})
+    moved = _aliased(flat, {v for part in parts for v in part.variables})
     set_, some = (
         {re.sub(r"\[[\d,]+\]$", "", name) for name in own}  # an entry counts for its parameter
         for own in (flat.parameters.structural_zeros, flat.parameters.names)
@@ -151,14 +151,14 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
             if not isinstance(declared, f.Parameter) or len(found) == MOST:
                 continue
             zero = whole in set_ and whole not in some
-            if (zero and lacks) or (_is_singular(getattr(component, name)) and not _follows(whole, found)):
+            if (zero and lacks) or (_is_singular(getattr(component, name)) and not _bound_to_owner(whole, found)):
                 where = f"{Origin.of(component)}: " if path else ""
                 remedy = f"{where}{type(component).__name__}({name}=...), {declared.description}"
-                found[whole] = _Zero(component, zero, _other(getattr(component, name).shape), remedy)
+                found[whole] = _Zero(component, zero, _trial_value(getattr(component, name).shape), remedy)
     return found
 
 
-def _moved(flat: FlatModel, unknowns: set[int]) -> set[str]:
+def _aliased(flat: FlatModel, unknowns: set[int]) -> set[str]:
     """Return the paths of components with a variable that is an alias of the unknowns or of their derivatives."""
     own, up = scalars(flat.unknowns.symbols), flat.unknowns.derivative
     reached = [v for v in unknowns if v < len(own)]
@@ -182,7 +182,7 @@ def _is_singular(value: Any) -> bool:
     return any(value.sx[k, k].is_zero() for k in range(value.sx.size1()))
 
 
-def _follows(path: str, found: Mapping[str, _Zero]) -> bool:
+def _bound_to_owner(path: str, found: Mapping[str, _Zero]) -> bool:
     """Return whether a found parameter of the same name in an owner determines this parameter of a part."""
     name = path.rpartition(".")[2]
     return any(
@@ -191,7 +191,7 @@ def _follows(path: str, found: Mapping[str, _Zero]) -> bool:
     )
 
 
-def _other(shape: tuple[int, ...]) -> np.ndarray:
+def _trial_value(shape: tuple[int, ...]) -> np.ndarray:
     """Return a nonzero trial value: a unit matrix, a unit vector or 1."""
     value = np.zeros(shape)
     value[tuple(np.arange(min(shape)) for _ in shape) if len(shape) == 2 else (0,) * len(shape)] = 1.0
