@@ -67,8 +67,8 @@ class Constraints:
         # Without projections there are no constraints here: the loop closures stay equations of the DAE.
         self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
         self.of_loops = [k for k, c in zip(self.closures, reduced.flat.loops.closures, strict=False) if c.loop >= 0]
-        said = {place[c.row]: c.statement for c in reduced.flat.loops.closures if place}
-        kinds = [(said.get(k, -1 - k), level) for k, rows in enumerate(self.rows) for level in range(len(rows))]
+        statements = {place[c.row]: c.statement for c in reduced.flat.loops.closures if place}
+        kinds = [(statements.get(k, -1 - k), level) for k, rows in enumerate(self.rows) for level in range(len(rows))]
         self.kinds = np.unique(np.array(kinds).reshape(-1, 2), axis=0, return_inverse=True)[1].ravel()
         pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
         self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T

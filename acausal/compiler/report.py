@@ -91,7 +91,7 @@ def summary(r: Mapping[str, Any]) -> str:
         f"  algebraic     {_list(r['algebraic'])}",
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
-    lines += [f"  {loop['kind']:14}{_tell(loop)}" for loop in r["loops"]]
+    lines += [f"  {loop['kind']:14}{_loop_text(loop)}" for loop in r["loops"]]
     if r["redundant_in_parts"]:
         lines.append(f"  redundant     {_redundant(r['redundant_in_parts'])}")
     if r["independent_states"]:
@@ -155,7 +155,7 @@ def _flows(unknowns: FlatUnknowns, closures: list[FlatClosure]) -> list[str]:
     return [name for name, s in names if s.element_hash() in flows - moving]
 
 
-def _tell(loop: dict[str, Any]) -> str:
+def _loop_text(loop: dict[str, Any]) -> str:
     a, b = loop["closed_by"]
     left = loop["constraints"] - loop["redundant"]
     text = f"through {_list(loop['parts'])}, closed where {a} meets {b} ({loop['where']}): "

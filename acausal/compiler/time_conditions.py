@@ -113,7 +113,7 @@ def split_time_comparisons(reduced: ReducedModel) -> ReducedModel:
         own_switches = {
             id(part): _switch(Condition(Expr(e), part.kind), guard, switches, distinct) for part, t, e in parts if t
         }
-        own[id(guard)] = replace(guard, condition=_what_is_left(guard.condition, own_switches).condition())
+        own[id(guard)] = replace(guard, condition=_partial(guard.condition, own_switches).condition())
     if not own:
         return reduced
     kept = flat.discontinuities
@@ -136,7 +136,7 @@ def _switch(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guar
 
 
 @dataclass(frozen=True)
-class _Left:
+class _Partial:
     """A condition with the truth values of some comparisons known.
 
     `yes` is 1 where these decide that it holds, `no` where they decide that it does not; elsewhere `rest` decides.
@@ -153,18 +153,18 @@ class _Left:
         return Condition(Expr(excess), self.rest.kind)
 
 
-def _what_is_left(condition: Condition, switches: dict[int, ca.SX]) -> _Left:
+def _partial(condition: Condition, switches: dict[int, ca.SX]) -> _Partial:
     if not isinstance(condition, Joined):
         switch = switches.get(id(condition))
-        return _Left(ca.SX(0), ca.SX(0), condition) if switch is None else _Left(switch, 1 - switch, None)
-    a, b = _what_is_left(condition.a, switches), _what_is_left(condition.b, switches)
+        return _Partial(ca.SX(0), ca.SX(0), condition) if switch is None else _Partial(switch, 1 - switch, None)
+    a, b = _partial(condition.a, switches), _partial(condition.b, switches)
     every = condition.every
     yes = a.yes * b.yes if every else ca.fmax(a.yes, b.yes)
     no = ca.fmax(a.no, b.no) if every else a.no * b.no
     if a.rest is None or b.rest is None:
-        return _Left(yes, no, b.rest if a.rest is None else a.rest)
+        return _Partial(yes, no, b.rest if a.rest is None else a.rest)
     # A decided operand that does not decide the whole leaves it to the other operand.
     silent_a, silent_b = (a.yes, b.yes) if every else (a.no, b.no)
     both = Joined(a.rest, b.rest, every)
     excess = ca.if_else(silent_a, b.rest.excess.sx, ca.if_else(silent_b, a.rest.excess.sx, both.excess.sx))
-    return _Left(yes, no, Condition(Expr(excess), both.kind))
+    return _Partial(yes, no, Condition(Expr(excess), both.kind))
