@@ -47,8 +47,8 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), de
     digits = max(0, 2 - int(np.floor(np.log10(end - begin)))) if end > begin else 2
     frames = []
     for t in np.linspace(begin, end, count):
-        told = f"t = {t:.{digits}f} s"
-        frames.append(picture.pixels([(float(t), 0.0)], told + (f"   (speed x {speed:g})" if speed != 1 else "")))
+        caption = f"t = {t:.{digits}f} s"
+        frames.append(picture.pixels([(float(t), 0.0)], caption + (f"   (speed x {speed:g})" if speed != 1 else "")))
     palette = _joined(frames[:: max(1, len(frames) // SAMPLES)]).quantize(COLOURS)
     # A background that is not quite white would show as a box on a white page.
     palette.putpalette([255 if c > NEARLY_WHITE else c for c in palette.getpalette() or ()])
@@ -64,9 +64,11 @@ def still(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), d
     begin, end = picture.span
     times = np.linspace(begin, end, MOMENTS) if end > begin else [end]
     faint = np.linspace(FAINT, 0, len(times))
-    told = f"t = {begin:.4g} to {end:.4g} s" if end > begin else f"t = {end:.4g} s"
+    caption = f"t = {begin:.4g} to {end:.4g} s" if end > begin else f"t = {end:.4g} s"
     file = io.BytesIO()
-    picture.pixels(list(zip(map(float, times), map(float, faint), strict=True)), told).save(file, "PNG", optimize=True)
+    picture.pixels(list(zip(map(float, times), map(float, faint), strict=True)), caption).save(
+        file, "PNG", optimize=True
+    )
     return file.getvalue()
 
 
@@ -141,7 +143,7 @@ class _Picture:
         bar.ax.tick_params(labelsize=6)
         return lambda numbers: mapped.to_rgba(numbers)[:, :3]
 
-    def pixels(self, moments: list[tuple[float, float]], told: str) -> Any:
+    def pixels(self, moments: list[tuple[float, float]], caption: str) -> Any:
         """Return a picture of several instants, each a time and its fraction of white."""
         from PIL import Image
 
@@ -157,7 +159,7 @@ class _Picture:
         colours = [tuple(colour.tolist()) for _, colour in polygons]
         self.shown.set_facecolor(colours)
         self.shown.set_edgecolor(colours)
-        self.time.set_text(told)
+        self.time.set_text(caption)
         self.figure.canvas.draw()
         canvas_: Any = self.figure.canvas
         return Image.fromarray(np.asarray(canvas_.buffer_rgba())[:, :, :3].copy())

@@ -82,7 +82,7 @@ def save(figure: Figure, path: str | Path) -> None:
         figure.savefig(file, format=_ending(path), dpi=DPI)
 
 
-def opened(figure: Figure, path: str | Path | None) -> None:
+def open_figure(figure: Figure, path: str | Path | None) -> None:
     """Open a figure in the system's viewer, saving it first if it has no path yet."""
     import tempfile
     import webbrowser

@@ -17,7 +17,7 @@ from acausal.locks import alone
 from acausal.result.evaluation import read
 from acausal.result.invalid_values import invalid_values
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
-from acausal.result.plots import Series, draw, opened, save
+from acausal.result.plots import Series, draw, open_figure, save
 from acausal.result.snapshot import Snapshot, take_snapshot
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
@@ -75,7 +75,7 @@ class Result:
         self._evaluate = evaluate
         self._more = more
         self._arrays = {"time": self.time} if not has_time(tree) else {}
-        self._told: set[str] = set()
+        self._warned: set[str] = set()
 
     @property
     def stats(self) -> Statistics:
@@ -215,7 +215,7 @@ class Result:
         if path is not None:
             save(figure, path)
         if show:
-            opened(figure, path)
+            open_figure(figure, path)
         return figure
 
     def _beside(self, key: object) -> bool:
@@ -282,8 +282,8 @@ class Result:
         quantities = [self._find(key) for key in keys]
         found = list(zip(quantities, self._read(quantities), strict=True))
         for quantity, array in found:
-            if quantity.name not in self._told and not np.isfinite(array).all():
-                self._told.add(quantity.name)
+            if quantity.name not in self._warned and not np.isfinite(array).all():
+                self._warned.add(quantity.name)
                 why = getattr(self._evaluate, "why", None) if quantity.declared else None
                 caution(invalid_values(quantity, array, self.time, why))
         return found

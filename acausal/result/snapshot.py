@@ -114,8 +114,8 @@ class Snapshot:
             raise DeclarationError(unknown_path(str(key), self.names, kind=self._kind(str(key)))) from None
 
     def _kind(self, path: str) -> str:
-        told = re.search(r" is a part \((\w+)\)", self.refused.get(path.rpartition(".")[0], ""))
-        return told[1] if told else ""
+        found = re.search(r" is a part \((\w+)\)", self.refused.get(path.rpartition(".")[0], ""))
+        return found[1] if found else ""
 
     def _walk(self, path: str) -> Quantity:
         if path == "time" and path not in self.quantities:
