@@ -17,16 +17,16 @@ from acausal.cli.common import (
     Scene,
     Set,
     StopTime,
-    blaming,
     compile_scene,
     make_scene,
     message_of,
     running,
     stop_time_of,
+    user_errors,
 )
 from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
 from acausal.cli.scenes import file_of, find_scene, scenes
-from acausal.cli.streams import ended, tell, tolerant
+from acausal.cli.streams import escape_unencodable, flushed, tell
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
@@ -50,11 +50,11 @@ app = typer.Typer(
 
 def main() -> None:
     """Run the command line."""
-    tolerant()
+    escape_unencodable()
     try:
         app(prog_name="acausal")
     except SystemExit as end:
-        sys.exit(ended(end.code))
+        sys.exit(flushed(end.code))
 
 
 @app.command("list")
@@ -143,20 +143,20 @@ def simulate(
             "max_order": max_order,
             "initial": initial,
         }
-        with blaming(cls):
+        with user_errors(cls):
             how["stop_time"] = stop_time_of(model, given, stop_time)
             checked_task(model, given, how)
             compiled = ac.compile(model, parameters=given)
         # Refuse wrong names before the run.
         chosen = match(compiled.tree, variables or ())
-        with blaming(cls):
+        with user_errors(cls):
             files.check(compiled.tree)
         if csv is not None:
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
         chosen_by = effective_settings(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
         again = chosen_by is not None and bool(adaptive(compiled.tree))
         options = {**how, "parameters": given if again else None, "energy": True}
-        with blaming(cls):
+        with user_errors(cls):
             subject = model if again else compiled
             result = _rescue(lambda show: ac.simulate(subject, **options, progress=show), files, variables, quiet)
         files.write(result, _chosen(result, variables))

@@ -14,10 +14,10 @@ from typing import IO, TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from acausal.cli.faults import brief, ended, place_in
+from acausal.cli.faults import brief, exit_error, place_in
 from acausal.cli.option_values import read_settings
 from acausal.cli.scenes import instance
-from acausal.cli.streams import WRONG, aside, tell, unwritten
+from acausal.cli.streams import WRONG, report_unwritten, reserved_output, tell
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import check_writable
@@ -71,12 +71,12 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
     try:
         if json not in (None, "-"):
             check_writable(json)
-        with _told(quiet), _terminable(), aside(json == "-") as standard_output:
+        with _print_warnings(quiet), _terminable(), reserved_output(json == "-") as standard_output:
             yield standard_output
     except OSError as error:
         if error.filename is not None or error.errno not in NO_OUTPUT:
             raise
-        raise typer.Exit(unwritten(error)) from None
+        raise typer.Exit(report_unwritten(error)) from None
     except MemoryError:
         _stop("there is not enough memory; take fewer intervals, elements or variables.", FAILED)
     except SimulationError as error:
@@ -117,9 +117,9 @@ def _terminable() -> Iterator[None]:
 
 
 @contextmanager
-def _told(quiet: bool) -> Iterator[None]:
+def _print_warnings(quiet: bool) -> Iterator[None]:
     """Print warnings of this package on standard error, each text once, or none if quiet; others as Python does."""
-    told: set[str] = set()
+    printed: set[str] = set()
     with warnings.catch_warnings():
         warnings.simplefilter("always", AcausalWarning)
         plain = warnings.showwarning
@@ -127,8 +127,8 @@ def _told(quiet: bool) -> Iterator[None]:
         def show(message: Warning | str, category: type[Warning], *place: Any) -> None:
             if not issubclass(category, AcausalWarning):
                 plain(message, category, *place)
-            elif not quiet and str(message) not in told:
-                told.add(str(message))
+            elif not quiet and str(message) not in printed:
+                printed.add(str(message))
                 tell(f"Warning: {message}")
 
         warnings.showwarning = show
@@ -136,7 +136,7 @@ def _told(quiet: bool) -> Iterator[None]:
 
 
 @contextmanager
-def blaming(cls: type[Model]) -> Iterator[None]:
+def user_errors(cls: type[Model]) -> Iterator[None]:
     """Turn Python errors that come from the user's file into messages with file and line."""
     try:
         yield
@@ -148,7 +148,7 @@ def blaming(cls: type[Model]) -> Iterator[None]:
             raise  # an error of the engine: keep the traceback
         raise DeclarationError(f"{place}: {brief(error)}") from error
     except SystemExit as error:
-        raise ended(error, Path(inspect.getfile(cls))) from None
+        raise exit_error(error, Path(inspect.getfile(cls))) from None
 
 
 def make_scene(
@@ -156,7 +156,7 @@ def make_scene(
 ) -> tuple[Model, dict[str, Any]]:
     """Return a scene and the values given by the user."""
     values: dict[str, Any] = read_settings(settings or ())
-    with blaming(cls):
+    with user_errors(cls):
         model = instance(cls)
         if effects is not None:
             from acausal.study.effects.choices_file import with_effects
@@ -170,7 +170,7 @@ def compile_scene(scene: str, cls: type[Model], settings: list[str] | None, effe
     import acausal as ac
 
     model, values = make_scene(scene, cls, settings, effects)
-    with blaming(cls):
+    with user_errors(cls):
         return ac.compile(model, parameters=values)
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from acausal.cli.app import app
-from acausal.cli.common import Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
+from acausal.cli.common import Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
 from acausal.cli.option_values import read_settings
 from acausal.cli.output import check_outputs, runs_bar, write_json
 from acausal.cli.scenes import file_of, find_scene, instance
@@ -56,7 +56,7 @@ def effects(
 
         check_outputs((file_of(scene),), apply=apply, csv=csv, markdown=markdown, json=json)
         cls, values = find_scene(scene), read_settings(settings or ())
-        with blaming(cls), runs_bar(not quiet) as show:
+        with user_errors(cls), runs_bar(not quiet) as show:
             model = instance(cls)
             found = study(
                 model,

@@ -33,7 +33,7 @@ def place_in(error: BaseException, path: Path) -> str:
     return f"{lines[-1][0]}:{lines[-1][1]}" if lines else ""
 
 
-def ended(error: SystemExit, path: Path) -> DeclarationError:
+def exit_error(error: SystemExit, path: Path) -> DeclarationError:
     """Return the error for a file that exits when it is loaded."""
     return DeclarationError(
         f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it should "

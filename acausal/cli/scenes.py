@@ -12,7 +12,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeGuard
 
-from acausal.cli.faults import brief, ended, place_in
+from acausal.cli.faults import brief, exit_error, place_in
 from acausal.errors import DeclarationError
 from acausal.language.component import Component, Model
 from acausal.nearest import likeliest
@@ -162,7 +162,7 @@ def _load(path: Path) -> ModuleType:
     except KeyboardInterrupt:
         raise
     except SystemExit as error:
-        raise ended(error, path) from None
+        raise exit_error(error, path) from None
     except BaseException as error:
         raise DeclarationError(f"{place_in(error, path) or path}: {brief(error)}") from error
     return module

@@ -21,7 +21,7 @@ def tell(text: str) -> None:
         typer.echo(text, err=True)
 
 
-def tolerant() -> None:
+def escape_unencodable() -> None:
     """Escape characters that a terminal cannot show, instead of failing."""
     for stream in (sys.stdout, sys.stderr):
         change: Any = getattr(stream, "reconfigure", None)
@@ -30,7 +30,7 @@ def tolerant() -> None:
 
 
 @contextmanager
-def aside(wanted: bool) -> Iterator[IO[str]]:
+def reserved_output(wanted: bool) -> Iterator[IO[str]]:
     """Reserve standard output for a document: all other output, of libraries too, goes to standard error.
 
     Parameters
@@ -72,13 +72,13 @@ def _own_descriptor() -> Iterator[IO[str]]:
             own.close()
 
 
-def ended(status: str | int | None) -> str | int | None:
+def flushed(status: str | int | None) -> str | int | None:
     """Flush standard output and standard error, and return the exit status."""
     try:
         if sys.stdout is not None:
             sys.stdout.flush()
     except OSError as error:
-        status = unwritten(error)
+        status = report_unwritten(error)
     try:
         if sys.stderr is not None:
             sys.stderr.flush()
@@ -87,7 +87,7 @@ def ended(status: str | int | None) -> str | int | None:
     return status
 
 
-def unwritten(error: OSError) -> int:
+def report_unwritten(error: OSError) -> int:
     """Report why standard output cannot be written, discard the rest, and return the exit status."""
     _give_up(sys.stdout)
     if isinstance(error, BrokenPipeError):

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from acausal.cli.app import app
-from acausal.cli.common import Initial, Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
+from acausal.cli.common import Initial, Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
 from acausal.cli.option_values import read_settings, read_switches
 from acausal.cli.output import check_outputs, runs_bar, write_json
 from acausal.cli.scenes import file_of, find_scene, instance
@@ -104,7 +104,7 @@ def study(
         numbers = {"accuracy": accuracy, "intervals": intervals, "initial": initial, "repeats": repeats, "limit": limit}
         journal = f"{csv}.journal" if csv else None
         try:
-            with blaming(cls), runs_bar(not quiet) as show:
+            with user_errors(cls), runs_bar(not quiet) as show:
                 model = instance(cls)
                 found = run(
                     model,
