@@ -68,11 +68,11 @@ def cheapest(
     found: dict[str, EffectRow] = {}
     answers: dict[str, Any] = dict.fromkeys(searches)
     while answers:
-        asked = {}
+        requests = {}
         for name, answer in answers.items():
             try:
-                asked[name] = searches[name].send(answer)
+                requests[name] = searches[name].send(answer)
             except StopIteration as end:
                 found[name] = end.value
-        answers = dict(zip(asked, measure(list(asked.values())), strict=True))
+        answers = dict(zip(requests, measure(list(requests.values())), strict=True))
     return {name: found[name] for name in searches}

@@ -78,7 +78,7 @@ class Case:
         """Return the case with another step, or another tolerance."""
         return replace(self, tolerance=control) if self.dt is None else replace(self, dt=control)
 
-    def told(self) -> Case:
+    def without_data(self) -> Case:
         """Return an equal case without settings and run, which are sent separately."""
         found = replace(self, settings={}, run=None)
         vars(found).update(key=self.key, structure=self.structure)
@@ -143,7 +143,7 @@ class Job:
     def of(self, case: Case) -> Job:
         """Return the job of another case, ready to be sent."""
         run = pack(case.run, self.home) if case.run else b""
-        return replace(self, case=case.told(), settings=pack(dict(case.settings), self.home), run=run)
+        return replace(self, case=case.without_data(), settings=pack(dict(case.settings), self.home), run=run)
 
     @property
     def values(self) -> Mapping[str, Any]:

@@ -86,8 +86,8 @@ class Journal:
         measurement : Measurement
             Measurement of a case that is not in the journal yet.
         """
-        told = {name: getattr(measurement, name) for name in KINDS}
-        document = {POINT: measurement.case.key, **told, "times": measurement.times.tolist()}
+        entries = {name: getattr(measurement, name) for name in KINDS}
+        document = {POINT: measurement.case.key, **entries, "times": measurement.times.tolist()}
         document["values"] = {name: np.asarray(column).tolist() for name, column in measurement.values.items()}
         self._write(document)
 
@@ -164,17 +164,17 @@ def identity(model: Component, trees: Iterable[Component], runs: Iterable[Any] =
         "version": importlib.metadata.version("acausal"),
         "model": type(model).__qualname__,
         "source": digest.hexdigest(),
-        "values": _given(model),
+        "values": _arguments(model),
         "data": _data(trees),
         **plain(options),
     }
 
 
-def _given(value: Any) -> Any:
+def _arguments(value: Any) -> Any:
     """Return the arguments of a model and, recursively, of its parts."""
     if isinstance(value, Component):
-        return {"": type(value).__qualname__, **{name: _given(v) for name, v in sorted(value._values.items())}}
-    return [_given(v) for v in value] if isinstance(value, list | tuple) else plain(value)
+        return {"": type(value).__qualname__, **{name: _arguments(v) for name, v in sorted(value._values.items())}}
+    return [_arguments(v) for v in value] if isinstance(value, list | tuple) else plain(value)
 
 
 def _data(trees: Iterable[Component]) -> dict[str, list[Any]]:

@@ -20,7 +20,7 @@ from acausal.simulation import forget, simulate
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
 from acausal.study.measuring.model_pickling import unpack
-from acausal.study.measuring.own_run import take
+from acausal.study.measuring.own_run import run_integrator
 
 KEPT = 2
 # Compiled models of this process, the most recently used last.
@@ -85,7 +85,7 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
 def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
     """Run, and return the result and the solve time, scaled by the process's share of the processor."""
     began, busy = clock.perf_counter(), clock.process_time()
-    result, seconds = take(job, compiled, show) if job.run else _simulated(job, compiled, show)
+    result, seconds = run_integrator(job, compiled, show) if job.run else _simulated(job, compiled, show)
     share = (clock.process_time() - busy) / (clock.perf_counter() - began)
     return result, seconds * min(1.0, share)
 

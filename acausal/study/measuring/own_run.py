@@ -22,7 +22,7 @@ from acausal.study.measuring.model_pickling import unpack
 AT = 1e-6
 
 
-def take(job: Job, compiled: CompiledModel, show: Callable[[float, int], None]) -> tuple[Result, float]:
+def run_integrator(job: Job, compiled: CompiledModel, show: Callable[[float, int], None]) -> tuple[Result, float]:
     """Run a case by the formulation's own integrator.
 
     Parameters

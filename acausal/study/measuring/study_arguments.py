@@ -43,11 +43,11 @@ def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, .
     patterns : sequence of str
         Paths, with * and ?; if empty, those in the model's attribute `compared`, or else its outputs.
     """
-    asked = items("outputs", patterns, '["x", "y"]')
+    requested = items("outputs", patterns, '["x", "y"]')
     own = getattr(type(compiled.tree), "compared", ())
-    if not asked and not isinstance(own, Field):
-        asked = items("the attribute `compared` of the model", own, '("x", "y")')
-    paths = match(compiled.tree, asked) or compiled.outputs
+    if not requested and not isinstance(own, Field):
+        requested = items("the attribute `compared` of the model", own, '("x", "y")')
+    paths = match(compiled.tree, requested) or compiled.outputs
     found = tuple(name for path in paths for _, name, _ in find(compiled.tree, path).entries)
     if not found:
         raise DeclarationError(

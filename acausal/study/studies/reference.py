@@ -32,7 +32,7 @@ class Reference:
         Outputs by name.
     agreement : mapping of str to mapping of str to float
         Largest deviation of each output, as a fraction of its range, by what the reference was compared with.
-    asked : float
+    requested : float
         The requested deviation.
     text : str
         Its origin, for tables.
@@ -43,7 +43,7 @@ class Reference:
     times: np.ndarray
     values: Mapping[str, np.ndarray]
     agreement: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    asked: float = 0.0
+    requested: float = 0.0
     text: str = ""
     case: Case | None = None
 
@@ -62,14 +62,16 @@ class Reference:
             return f"reference: {self.text}"
         compared = ", ".join(f"{what} {max(found.values()):.1e}" for what, found in self.agreement.items())
         lines = [f"reference: {self.text}; known to {self.floor:.1e} of the range ({compared})"]
-        if self.floor > self.asked:
-            lines.append(f"{self.asked:.0e} was requested but not reached: smaller errors cannot be distinguished")
+        if self.floor > self.requested:
+            lines.append(f"{self.requested:.0e} was requested but not reached: smaller errors cannot be distinguished")
         if len(self.values) > 1:
             lines.append("by output: " + ", ".join(f"{name} {floor:.1e}" for name, floor in self.floors.items()))
         return "\n".join(lines)
 
 
-def make(measure: Measure, formulations: Sequence[Formulation], case: Case, least: float, asked: float) -> Reference:
+def make(
+    measure: Measure, formulations: Sequence[Formulation], case: Case, least: float, requested: float
+) -> Reference:
     """Compute the reference from the model itself, preferably by formulations that are refined by a tolerance.
 
     Parameters
@@ -82,17 +84,19 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
         Common settings of all cases.
     least : float
         The tightest tolerance of the study.
-    asked : float
+    requested : float
         Deviation to be reached, as a fraction of the range.
     """
     start = replace(case, tolerance=max(STUDY.least, least / STUDY.tighter))
     own = [form for form in formulations if not form.dt]
     if not own:
-        return _stepped(measure, _at(start, formulations[0], formulations[0].steps - 1), min(formulations[0].dt), asked)
+        return _stepped(
+            measure, _at(start, formulations[0], formulations[0].steps - 1), min(formulations[0].dt), requested
+        )
     formulations = own
     if not any(form.refine for form in formulations):
-        return _tightened(measure, _at(start, formulations[0], 0), asked)
-    return _refined(measure, [form for form in formulations if form.refine], start, asked)
+        return _tightened(measure, _at(start, formulations[0], 0), requested)
+    return _refined(measure, [form for form in formulations if form.refine], start, requested)
 
 
 def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Reference:
@@ -143,16 +147,16 @@ def matching(table: Columns, outputs: Sequence[str], times: np.ndarray) -> Refer
     return Reference(times, values, text=table.path)
 
 
-def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked: float) -> Reference:
+def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, requested: float) -> Reference:
     """Double the sizes and tighten the tolerance until the result converges and two formulations agree."""
     state, best = _State(tuple(forms), start.tolerance), None
     for _ in range(STUDY.rounds):
-        now, state, why = _look(measure, state, start, asked)
+        now, state, why = _compared(measure, state, start, requested)
         if now is not None and (best is None or now.floor < best.floor):
             best = now
-        if why or (best is not None and best.floor <= asked):
-            return _ended(best, why)
-    return _ended(best, f"{STUDY.rounds} refinements were tried")
+        if why or (best is not None and best.floor <= requested):
+            return _finished(best, why)
+    return _finished(best, f"{STUDY.rounds} refinements were tried")
 
 
 @dataclass(frozen=True)
@@ -164,7 +168,7 @@ class _State:
     level: int = 0
 
 
-def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[Reference | None, _State, str]:
+def _compared(measure: Measure, state: _State, start: Case, requested: float) -> tuple[Reference | None, _State, str]:
     """Compare with coarser elements, another formulation and a looser tolerance.
 
     Returns the reference, None if all runs failed; the next refinement; and why the refinement has to end, or "".
@@ -190,7 +194,7 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     tolerance = max(agreement["looser tolerance"].values())
     forms = tuple(form for *_, form in pairs)
     why = _failed(runs) if len(forms) < min(n, 2) else ""
-    tighten = tolerance > max(asked, elements / 3) and state.tolerance / STUDY.tighter >= STUDY.least
+    tighten = tolerance > max(requested, elements / 3) and state.tolerance / STUDY.tighter >= STUDY.least
     if not tighten and all(a.case == b.case for a, b, _ in pairs):
         why = why or "the maximum number of elements is reached"
     after = (
@@ -198,17 +202,17 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
         if tighten
         else _State(forms, state.tolerance, state.level + 1)
     )
-    return _reference(best, agreement, asked), after, why
+    return _reference(best, agreement, requested), after, why
 
 
-def _ended(found: Reference | None, why: str) -> Reference:
+def _finished(found: Reference | None, why: str) -> Reference:
     """Note why the refinement ended early, or raise SimulationError without a result."""
     if found is None:
         raise SimulationError(f"there is no reference: {why}. Give one by reference=, or other formulations.")
     return replace(found, text=f"{found.text} ({why})") if why else found
 
 
-def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
+def _tightened(measure: Measure, case: Case, requested: float) -> Reference:
     """Tighten the tolerance of a model without elements, and check by another method."""
     found, best, looser = (
         None,
@@ -220,15 +224,15 @@ def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
         if best.error or looser.error:
             why = _failed([best, looser])
             break
-        found = _reference(best, {"looser tolerance": _distances(looser, best)}, asked)
+        found = _reference(best, {"looser tolerance": _distances(looser, best)}, requested)
         tolerance = best.case.tolerance / STUDY.tighter
-        if found.floor <= asked or tolerance < STUDY.least:
+        if found.floor <= requested or tolerance < STUDY.least:
             break
         looser, best = best, measure([replace(best.case, tolerance=tolerance)])[0]
-    return _checked(measure, _ended(found, why), looser if best.error else best)
+    return _checked(measure, _finished(found, why), looser if best.error else best)
 
 
-def _stepped(measure: Measure, case: Case, dt: float, asked: float) -> Reference:
+def _stepped(measure: Measure, case: Case, dt: float, requested: float) -> Reference:
     """Halve the steps of a formulation with steps of its own."""
     found, why = None, ""
     longer, best = measure([replace(case, dt=dt), replace(case, dt=dt / 2)])
@@ -236,11 +240,11 @@ def _stepped(measure: Measure, case: Case, dt: float, asked: float) -> Reference
         if longer.error or best.error:
             why = _failed([longer, best])
             break
-        found = _reference(best, {"longer steps": _distances(longer, best)}, asked)
-        if found.floor <= asked:
+        found = _reference(best, {"longer steps": _distances(longer, best)}, requested)
+        if found.floor <= requested:
             break
         longer, best = best, measure([best.case.refined(best.case.control / 2)])[0]
-    return _ended(found, why)
+    return _finished(found, why)
 
 
 def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference:
@@ -262,8 +266,8 @@ def _distances(one: Measurement, other: Measurement | Reference) -> dict[str, fl
     return {name: most for name, (most, _) in deviations(one.values, other.values).items()}
 
 
-def _reference(best: Measurement, agreement: Mapping[str, Mapping[str, float]], asked: float) -> Reference:
-    return Reference(best.times, best.values, agreement, asked, str(best.case), best.case)
+def _reference(best: Measurement, agreement: Mapping[str, Mapping[str, float]], requested: float) -> Reference:
+    return Reference(best.times, best.values, agreement, requested, str(best.case), best.case)
 
 
 def _at(case: Case, form: Formulation, step: int) -> Case:

@@ -108,9 +108,14 @@ class Study:
     def document(self) -> dict[str, Any]:
         """Return everything as data for JSON."""
         known, table = self.reference, self.columns
-        told = {"text": known.text, "agreement": known.agreement, "asked": known.asked, "known_to": known.floors}
+        described = {
+            "text": known.text,
+            "agreement": known.agreement,
+            "asked": known.requested,
+            "known_to": known.floors,
+        }
         rows = [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
-        return {"model": self.title, "reference": told, "rows": rows}
+        return {"model": self.title, "reference": described, "rows": rows}
 
     def to_csv(self, path: str | Path) -> None:
         """Write all columns of all cases.
@@ -238,8 +243,8 @@ def study(
     check_shares(1e-4, accuracy=accuracy)
     _check(initial, workers, journal)
     table = None if reference is None else read_csv(reference, "the reference")
-    asked = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
-    forms = [within(model, given, form) if isinstance(form, Formulation) else form for form in asked]
+    requested = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    forms = [within(model, given, form) if isinstance(form, Formulation) else form for form in requested]
     varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
     grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied, dt)
     compiled = compile(model, given)

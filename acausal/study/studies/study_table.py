@@ -61,8 +61,8 @@ def cells(rows: Sequence[StudyRow], reference: Reference, switches: Sequence[str
     """
     table = columns(rows, switches)
     options = ("max_order", "method", "constraints")
-    asked = {name: {getattr(row.case, name) for row in rows} for name in options}
-    varied = [name for name in options if len(asked[name]) > 1 or len({used for used in table[name] if used}) > 1]
+    requested = {name: {getattr(row.case, name) for row in rows} for name in options}
+    varied = [name for name in options if len(requested[name]) > 1 or len({used for used in table[name] if used}) > 1]
     control = "tolerance, dt" if "dt" in table else "tolerance"
     head = ["", "formulation", "size", *switches, control, *(name.replace("_", " ") for name in varied)]
     head += ["solve ms", "compile s", "steps", "fact.", "residuals", "unknowns", "error", "rms", "limited by"]
