@@ -11,7 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import AcausalError
 from acausal.export.dae.dae_listing import unknown_names
-from acausal.export.dae.modelica_text import Names, hashed, number, texts, written
+from acausal.export.dae.modelica_text import Names, hashed, modelica, number, texts
 from acausal.flatten.discontinuities import Guard
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
@@ -80,15 +80,15 @@ class _Text:
         entries = zip(self.unknowns, (*compiled.states, *compiled.algebraic), at, strict=True)
         for text, name, value in entries:
             unit = str(units.get(name, ""))
-            said = f'unit = "{unit}", ' if unit and "^" not in unit else ""
-            yield f"Real {text}({said}start = {number(value)}){self._comment(name)};"
+            attribute = f'unit = "{unit}", ' if unit and "^" not in unit else ""
+            yield f"Real {text}({attribute}start = {number(value)}){self._comment(name)};"
         yield from (f"Real {text};" for text in self.switches)
         yield from (f"discrete Real {text};" for text in self.discretes)
 
     def _comment(self, name: str) -> str:
-        said = self.described.get(re.sub(r"\[[\d,]+\]$", "", name), "")
-        said = said.replace("\\", "\\\\").replace('"', '\\"')
-        return f' "{said}"' if said else ""
+        description = self.described.get(re.sub(r"\[[\d,]+\]$", "", name), "")
+        description = description.replace("\\", "\\\\").replace('"', '\\"')
+        return f' "{description}"' if description else ""
 
     def _choice(self) -> list[float]:
         """Return the choices for closed loops: redundant closures are dropped, D follows the constraint Jacobian."""
@@ -113,8 +113,8 @@ class _Text:
         columns = [r.ode, r.alg, ca.substitute(compiled.conditions, initial.sx, 1), self._resolved(starts)]
         columns += [self._resolved(_excesses(switches)), stacked([e for _, e in outputs])]
         (ode, alg, conditions, begun, excesses, values), shared = self._written(columns, self.known)
-        said = iter(excesses)
-        held = [_condition(guard.condition, said) for guard in switches]
+        excess_texts = iter(excesses)
+        held = [_condition(guard.condition, excess_texts) for guard in switches]
         initials = [f"{e} = 0.0;" for e in conditions]
         initials += [f"{d} = {e};" for d, e in zip(self.discretes, begun, strict=True)]
         whens, more = self._whens()
@@ -132,7 +132,7 @@ class _Text:
 
     def _written(self, columns: list[ca.SX], known: dict[int, str]) -> tuple[list[list[str]], list[tuple[str, str]]]:
         """Return the texts of columns, and their common subexpressions."""
-        found, shared = written(stacked([dense(ca.SX(c)) for c in columns]), known, self.names)
+        found, shared = modelica(stacked([dense(ca.SX(c)) for c in columns]), known, self.names)
         return texts(found, [c.numel() for c in columns]), shared
 
     def _whens(self) -> tuple[list[str], list[tuple[str, str]]]:
@@ -143,9 +143,9 @@ class _Text:
         before = {h: f"pre({name})" for h, name in zip(self.discrete_hashes, self.discretes, strict=True)}
         columns = [self._resolved(_excesses(stated)), stacked([e for some in jumps for _, e in some])]
         (excesses, values), shared = self._written(columns, self.known | before)
-        said, new, found = iter(excesses), iter(values), list[str]()
+        excess_texts, new, found = iter(excesses), iter(values), list[str]()
         for guard, some in zip(stated, jumps, strict=True):
-            held = _condition(guard.condition, said)
+            held = _condition(guard.condition, excess_texts)
             found.append(f"when {{{held}, initial()}} then" if guard.at_start else f"when {held} then")
             for left, _ in some:
                 found.append(f"  reinit({left}, {next(new)});" if left in self.unknowns else f"  {left} = {next(new)};")

@@ -53,7 +53,7 @@ def evaluated(tree: Component) -> dict[str, Expr | str]:
     return found
 
 
-def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stated], add: Add) -> dict[str, Any]:
+def encode_tree(tree: Component, values: Mapping[str, Expr | str], stated: list[Stated], add: Add) -> dict[str, Any]:
     """Return classes and components of a bound model as JSON data, owners before their parts.
 
     Parameters
@@ -129,7 +129,7 @@ def _members(
         if isinstance(values.get(path), str):
             yield name, {"refused": values[path]}
         elif path in values:
-            yield name, {"value": encoded(values[path], add), **_seen(component, declared)}
+            yield name, {"value": encoded(values[path], add), **_declared(component, declared)}
         elif isinstance(declared, f.Structural):
             plain = type(own) in PLAIN and not (isinstance(own, float) and not isfinite(own))
             refined = declared.refine is not None and bool(declared.refine(component))
@@ -140,7 +140,7 @@ def _members(
             yield name, numbers.get(id(own))
 
 
-def _seen(component: Component, declared: f.Field) -> dict[str, Any]:
+def _declared(component: Component, declared: f.Field) -> dict[str, Any]:
     """Return the declared shape and unit, evaluated for an instance."""
     shape = declared.shape(component) if callable(declared.shape) else declared.shape
     unit = declared.unit(component) if callable(declared.unit) else declared.unit
@@ -199,24 +199,24 @@ class Unchecked:
         return ""
 
 
-def read(said: Mapping[str, Any], decode: Decode) -> Component:
+def decode_tree(data: Mapping[str, Any], decode: Decode) -> Component:
     """Return the bound model from its JSON data.
 
     Parameters
     ----------
-    said : mapping
-        From `written`.
+    data : mapping
+        From `encode_tree`.
     decode : callable
         From JSON data to a value.
     """
-    classes = [_made(entry) for entry in said["classes"]]
-    components = [cls.__new__(cls) for cls in (classes[entry["class"]] for entry in said["components"])]
-    for component, entry in zip(components, said["components"], strict=True):
+    classes = [_stand_in(entry) for entry in data["classes"]]
+    components = [cls.__new__(cls) for cls in (classes[entry["class"]] for entry in data["components"])]
+    for component, entry in zip(components, data["components"], strict=True):
         _fill(component, entry, components, decode)
     return components[0]
 
 
-def _made(entry: Mapping[str, Any]) -> type[Component]:
+def _stand_in(entry: Mapping[str, Any]) -> type[Component]:
     """Return a stand-in class with the fields of an unknown class."""
     name, base = entry["name"], {b.__name__: b for b in BASES}[entry["base"]]
     if not name.isidentifier() or keyword.iskeyword(name):
@@ -232,34 +232,34 @@ def _made(entry: Mapping[str, Any]) -> type[Component]:
     return cls
 
 
-def _field_of(said: Mapping[str, Any]) -> f.Field:
-    kind, name = KINDS[said["kind"]], said["name"]
-    more = {own: said[own] for own in MORE[kind]}
+def _field_of(data: Mapping[str, Any]) -> f.Field:
+    kind, name = KINDS[data["kind"]], data["name"]
+    more = {own: data[own] for own in MORE[kind]}
     if issubclass(kind, READABLE):
         more |= {"shape": partial(_own, name, "shape"), "unit": partial(_own, name, "unit")}
-    if kind is f.Structural and said["refine"]:
+    if kind is f.Structural and data["refine"]:
         more["refine"] = partial(_own, name, "refined")
     if kind is f.Observed:
         more["compute"] = partial(_computed, name)
-    return kind(said["description"], name=name, **more)
+    return kind(data["description"], name=name, **more)
 
 
 def _own(name: str, what: str, component: Any) -> Any:
-    return component._said[name][what]
+    return component._data[name][what]
 
 
 def _computed(name: str, component: Any) -> Expr:
-    said = component._said[name]
-    if "refused" in said:
-        raise DeclarationError(said["refused"])
-    return said["value"]
+    data = component._data[name]
+    if "refused" in data:
+        raise DeclarationError(data["refused"])
+    return data["value"]
 
 
 def _fill(component: Any, entry: Mapping[str, Any], components: list[Any], decode: Decode) -> None:
     """Set the fields of a component."""
-    said: dict[str, dict[str, Any]] = {}
+    data: dict[str, dict[str, Any]] = {}
     own = vars(component)
-    own |= {"_path": entry["path"], "_origin": entry["where"], "_is_bound": True, "_said": said}
+    own |= {"_path": entry["path"], "_origin": entry["where"], "_is_bound": True, "_data": data}
     own["_values"] = {name: f.InitialValue(None, True) for name in entry["started"]}
     own["_ports"] = tuple(components[k] for k in entry["ports"])
     own["_states"] = tuple(_statement(decode(statement)) for statement in entry["states"])
@@ -268,23 +268,23 @@ def _fill(component: Any, entry: Mapping[str, Any], components: list[Any], decod
     for name, member in entry["members"].items():
         declared = type(component).fields[name]
         if isinstance(declared, READABLE):
-            said[name] = {k: v if k == "refused" else _known(k, v, decode) for k, v in member.items()}
+            data[name] = {k: v if k == "refused" else _known(k, v, decode) for k, v in member.items()}
             if not isinstance(declared, f.Observed):
-                own[name] = said[name]["value"]
+                own[name] = data[name]["value"]
         elif isinstance(declared, f.Structural):
-            said[name], value = member, member["value"]
+            data[name], value = member, member["value"]
             own[name] = Shown(value["shown"]) if isinstance(value, dict) else value
         else:
             parts = [components[k] for k in (member if isinstance(member, list) else [member]) if k is not None]
             own[name] = parts if isinstance(member, list) else next(iter(parts), None)
 
 
-def _statement(said: Any) -> Any:
-    checks = not isinstance(said, Requirement) or said.problem
-    return said if checks else replace(said, problem=Unchecked(str(said.subject)))
+def _statement(data: Any) -> Any:
+    checks = not isinstance(data, Requirement) or data.problem
+    return data if checks else replace(data, problem=Unchecked(str(data.subject)))
 
 
-def _known(what: str, said: Any, decode: Decode) -> Any:
+def _known(what: str, data: Any, decode: Decode) -> Any:
     if what == "value":
-        return decode(said)
-    return tuple(said) if isinstance(said, list) else said
+        return decode(data)
+    return tuple(data) if isinstance(data, list) else data

@@ -81,9 +81,9 @@ def _members(path: str | Path, archive: zipfile.ZipFile) -> tuple[dict[str, Any]
         refuse(path, f"it is an archive, but not an open DAE: it has no {FIRST}")
     if sum(entry.file_size for entry in entries) > MOST:
         refuse(path, f"its content has more than {MOST >> 20} MB")
-    said = archive.read(FIRST)
+    text = archive.read(FIRST)
     try:
-        first = document(said.decode())
+        first = document(text.decode())
     except ValueError as error:
         refuse(path, f"{FIRST} is damaged: {error}")
     if not isinstance(first, dict) or first.get("format") != FORMAT:

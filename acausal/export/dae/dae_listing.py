@@ -22,7 +22,7 @@ from acausal.symbols import dense, stacked
 Add = Callable[[ca.SX | ca.DM], int]
 
 
-def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | str], add: Add) -> dict[str, Any]:
+def listing(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | str], add: Add) -> dict[str, Any]:
     """Return the content of dae.json on a model.
 
     Parameters

@@ -15,7 +15,7 @@ from acausal.compiler.requirements import Stated, statements
 from acausal.errors import ExportError
 from acausal.export.dae import component_tree, dae_archive
 from acausal.export.dae.base_modelica import base_modelica
-from acausal.export.dae.dae_listing import shown
+from acausal.export.dae.dae_listing import listing
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.json_values import encoded
 from acausal.language.arguments import fitting
@@ -63,10 +63,10 @@ def export_dae(
     inside = {
         "model": encoded(compiled.reduced, writer.add),
         "values": encoded(p, writer.add),
-        "tree": component_tree.written(compiled.tree, values, kept, writer.add),
+        "tree": component_tree.encode_tree(compiled.tree, values, kept, writer.add),
         "settings": {name: encoded(value, writer.add) for name, value in declared_settings(compiled).items()},
     }
-    described = shown(compiled, p, values, writer.add)
+    described = listing(compiled, p, values, writer.add)
     operations, symbols = writer.operations()
     hashes = [s.element_hash() for s in symbols]
     places = {name: expr.sx.element_hash() for name, expr in SHARED.items()}

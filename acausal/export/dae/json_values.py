@@ -113,12 +113,12 @@ def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
     return {"is": type(value).__name__, **found}
 
 
-def decoded(said: Any, expressions: Any, more: Mapping[str, dict[str, Any]]) -> Any:
+def decoded(data: Any, expressions: Any, more: Mapping[str, dict[str, Any]]) -> Any:
     """Return a value from its JSON data.
 
     Parameters
     ----------
-    said : object
+    data : object
         From `encoded`.
     expressions : Reader
         Expressions by their numbers.
@@ -134,27 +134,27 @@ def decoded(said: Any, expressions: Any, more: Mapping[str, dict[str, Any]]) -> 
     def again(inner: Any) -> Any:
         return decoded(inner, expressions, more)
 
-    if isinstance(said, list):
-        return tuple([again(v) for v in said])
-    if not isinstance(said, dict):
-        return said
-    if "is" in said:
-        cls = _CLASS[said["is"]]
-        found = {name: again(said[name]) for name in FIELDS[cls].split()}
-        return cls(**found, **more.get(said["is"], {}))
-    if "expression" in said:
-        return expressions[said["expression"]]
-    if "number" in said:
-        return float(said["number"])
-    if "array" in said:
-        return np.array([again(v) for v in said["entries"]], dtype={"f": float, "b": bool, "i": int}[said["array"]])
-    if "list" in said:
-        return [again(v) for v in said["list"]]
-    if "set" in said:
-        return frozenset(said["set"])
-    if "pairs" in said:
-        return {again(k): again(v) for k, v in said["pairs"]}
-    exponents = [Fraction(e) if isinstance(e, str) else int(e) for e in said["unit"]]
+    if isinstance(data, list):
+        return tuple([again(v) for v in data])
+    if not isinstance(data, dict):
+        return data
+    if "is" in data:
+        cls = _CLASS[data["is"]]
+        found = {name: again(data[name]) for name in FIELDS[cls].split()}
+        return cls(**found, **more.get(data["is"], {}))
+    if "expression" in data:
+        return expressions[data["expression"]]
+    if "number" in data:
+        return float(data["number"])
+    if "array" in data:
+        return np.array([again(v) for v in data["entries"]], dtype={"f": float, "b": bool, "i": int}[data["array"]])
+    if "list" in data:
+        return [again(v) for v in data["list"]]
+    if "set" in data:
+        return frozenset(data["set"])
+    if "pairs" in data:
+        return {again(k): again(v) for k, v in data["pairs"]}
+    exponents = [Fraction(e) if isinstance(e, str) else int(e) for e in data["unit"]]
     if len(exponents) != len(BASES):
         raise ValueError("a unit is invalid")
     return Dimension(*exponents)

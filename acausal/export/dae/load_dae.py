@@ -60,17 +60,17 @@ def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedMode
     inside = document(members["model.json"].decode())
     expressions = _expressions(first, members)
 
-    def decode(said: Any) -> Any:
-        return decoded(said, expressions, more)
+    def decode(data: Any) -> Any:
+        return decoded(data, expressions, more)
 
     more: dict[str, dict[str, Any]] = {"FlatEquations": {"givers": lambda row: (), "repeats": lambda: ()}}
-    root = component_tree.read(inside["tree"], decode)
+    root = component_tree.decode_tree(inside["tree"], decode)
     if not isinstance(root, Component):
         raise ValueError("there is no model")
     more["FlatModel"] = {"tree": root}
     reduced = decode(inside["model"])
     reduced.flat.parameters.values[:] = decode(inside["values"])
-    return reduced, {name: decode(said) for name, said in inside["settings"].items()}
+    return reduced, {name: decode(data) for name, data in inside["settings"].items()}
 
 
 def _expressions(first: dict[str, Any], members: dict[str, bytes]) -> Reader:

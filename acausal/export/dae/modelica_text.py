@@ -80,7 +80,7 @@ def number(value: float) -> str:
     return repr(float(value)) if value >= 0 else f"({float(value)!r})"
 
 
-def written(expressions: ca.SX, known: Mapping[int, str], names: Names) -> tuple[list[str], list[tuple[str, str]]]:
+def modelica(expressions: ca.SX, known: Mapping[int, str], names: Names) -> tuple[list[str], list[tuple[str, str]]]:
     """Return the text of each expression, and names with texts of their common subexpressions.
 
     Parameters
