@@ -79,28 +79,10 @@ class Settable:
         return found.reshape(value.shape, order="F").copy() if value.shape else float(found[0])
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
-        if isinstance(value, Expr):
-            what = f"{value!r}, an expression; a compiled model takes numbers"
-            remedy = f"a quantity; give the number alone, in SI units: {{{path!r}: {value!r}}}"
-            raise DeclarationError(f"`{path}` is {remedy if value.sx.is_constant() else what}.")
-        if isinstance(value, Mapping):
-            inner = next(iter(value), "m")
-            raise DeclarationError(
-                f'`{path}` is {value!r}; write the whole path of each value: {{"{path}.{inner}": ...}}.'
-            )
-        own = self.own
+        """Set the entries of one parameter in the array of all values."""
+        _check_kind(path, value)
+        own, entries = self.own, self._entries(path)
         index = {name: k for k, name in enumerate(own.names)}
-        prefix = path + "["
-        entries = [n for n in (*index, *own.structural_zeros) if n == path or n.startswith(prefix)]
-        if not entries:
-            if path in own.bound:
-                raise DeclarationError(
-                    f"`{path}` follows {own.bound[path]}; change that, or compile with its own value."
-                )
-            if path in self._structural_names:
-                raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
-            known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
-            raise DeclarationError(not_settable(path, self.tree, known))
         declared = self.tree.fields.get(path)
         law = law_of_input(self.tree, path) if isinstance(declared, f.Variable) else ""
         array = numeric(plain(value, self._unit(path), f"`{path}`"), None, f"`{path}`", law)
@@ -126,6 +108,19 @@ class Settable:
                     f"`{name}` was exactly 0 when compiled and is no longer in the equations (a structural zero). "
                     f"{_again(path)}"
                 )
+
+    def _entries(self, path: str) -> list[str]:
+        """Return the names of the entries of a parameter; raise DeclarationError if it cannot be set."""
+        own, prefix = self.own, path + "["
+        entries = [n for n in (*own.names, *own.structural_zeros) if n == path or n.startswith(prefix)]
+        if entries:
+            return entries
+        if path in own.bound:
+            raise DeclarationError(f"`{path}` follows {own.bound[path]}; change that, or compile with its own value.")
+        if path in self._structural_names:
+            raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
+        known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
+        raise DeclarationError(not_settable(path, self.tree, known))
 
     def _unit(self, path: str) -> Any:
         """Return the unit of a parameter, or of one of its entries."""
@@ -170,6 +165,17 @@ class Settable:
         least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in own.limits])[owners]
         positive = np.array([d.positive for _, _, d in own.limits])[owners]
         return Call(ca.Function("limits", [own.symbols], [column])), owners, least, positive
+
+
+def _check_kind(path: str, value: Any) -> None:
+    """Raise DeclarationError for a value that is an expression, a quantity or a dictionary."""
+    if isinstance(value, Expr):
+        what = f"{value!r}, an expression; a compiled model takes numbers"
+        remedy = f"a quantity; give the number alone, in SI units: {{{path!r}: {value!r}}}"
+        raise DeclarationError(f"`{path}` is {remedy if value.sx.is_constant() else what}.")
+    if isinstance(value, Mapping):
+        inner = next(iter(value), "m")
+        raise DeclarationError(f'`{path}` is {value!r}; write the whole path of each value: {{"{path}.{inner}": ...}}.')
 
 
 def _again(path: str) -> str:
