@@ -140,8 +140,8 @@ def test_gaps_of_other_models_are_told():
     [
         (stepped.failing, "this run knows why it cannot"),
         (stepped.broken, r"the run of formulation `bad` ended with KeyError: 'nothing' \(.*stepped.py:\d+\)"),
-        (stepped.other, "returned .*, it must return a Result"),
-        (stepped.short, "returned 8 times up to 2 s, it must return the times .*: 21 up to 2 s"),
+        (stepped.other, "returned .*; it must return a Result"),
+        (stepped.short, "returned 8 times up to 2 s; it must return the times .*: 21 up to 2 s"),
         (stepped.alone, "without `x`: it must contain all compared outputs"),
         (stepped.wild, "`x` is not finite from t = 1 s on"),
     ],
