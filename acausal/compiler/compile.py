@@ -16,7 +16,7 @@ from acausal.compiler.parameters import Settable
 from acausal.compiler.structural_zeros import remedy_for_zeros
 from acausal.compiler.time_conditions import split_time_comparisons
 from acausal.errors import StructurallySingularError, UnbalancedModelError
-from acausal.flatten import flatten
+from acausal.flatten import FlatModel, flatten
 from acausal.garbage import uncollected
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
@@ -68,13 +68,7 @@ def compile(
     settable = Settable(flat)
     settable.values(None)  # a parameter out of its limits, such as a length of 0, is reported before its consequences
     lap("flatten")
-    try:
-        plan, linear = plan_of(flat)
-    except (UnbalancedModelError, StructurallySingularError) as error:
-        what, _, why = str(error).partition("\n")
-        if remedy := remedy_for_zeros(model, parameters, flat, error):
-            why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), remedy])
-        raise type(error)("\n".join(filter(None, (what, why)))) from None
+    plan, linear = _analysed(flat, model, parameters)
     lap("analyse")
     reduced = split_time_comparisons(reduce(flat, plan, linear))
     lap("reduce")
@@ -84,18 +78,28 @@ def compile(
         Source(partial(compile, free=free) if free else compile, model, parameters),
         kept={Settable: settable},  # its values have been checked already
     )
-    _ = (
-        compiled.local,
-        compiled.values,
-        compiled.start,
-        compiled.guards.breaks,
-        compiled.guards.estimate,
-        compiled.hoist,
-        compiled.constraints,
-    )
-    compiled.guards.check()
+    _generate(compiled)
     lap("generate")
     return compiled
+
+
+def _analysed(flat: FlatModel, model: Component, parameters: Mapping[str, Any]) -> tuple[Any, Any]:
+    """Return the plan of the reduction and its linear terms; an error names parameters whose zeros leave the model incomplete."""
+    try:
+        return plan_of(flat)
+    except (UnbalancedModelError, StructurallySingularError) as error:
+        what, _, why = str(error).partition("\n")
+        if remedy := remedy_for_zeros(model, parameters, flat, error):
+            why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), remedy])
+        raise type(error)("\n".join(filter(None, (what, why)))) from None
+
+
+def _generate(compiled: CompiledModel) -> None:
+    """Generate the functions that every run needs, so that their seconds count as compile time."""
+    guards = compiled.guards
+    _ = compiled.local, compiled.values, compiled.start, guards.breaks, guards.estimate, compiled.hoist
+    _ = compiled.constraints
+    guards.check()
 
 
 def ready(
