@@ -76,7 +76,7 @@ def compile(
         reduced,
         seconds,
         Source(partial(compile, free=free) if free else compile, model, parameters),
-        kept={Settable: settable},  # its values have been checked already
+        memo={Settable: settable},  # its values have been checked already
     )
     _generate(compiled)
     lap("generate")

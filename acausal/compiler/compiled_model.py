@@ -51,7 +51,7 @@ class CompiledModel:
     seconds: dict[str, float] = field(default_factory=dict)
     source: Source | None = None
     integrators: dict[tuple, Call] = field(default_factory=dict)
-    kept: dict[Any, Any] = field(default_factory=dict)
+    memo: dict[Any, Any] = field(default_factory=dict)
     declared: Mapping[str, Any] | None = None
 
     @alone
@@ -297,4 +297,4 @@ class CompiledModel:
     @cached_property
     def settable(self) -> Settable:
         """The settable parameters, for callers that hold the lock."""
-        return self.kept.get(Settable) or Settable(self.reduced.flat)
+        return self.memo.get(Settable) or Settable(self.reduced.flat)

@@ -14,7 +14,7 @@ class Compiled(Protocol):
     """An object that holds results computed from its equations."""
 
     @property
-    def kept(self) -> dict[Any, Any]:
+    def memo(self) -> dict[Any, Any]:
         """Results by function and arguments."""
         ...
 
@@ -31,19 +31,19 @@ def memoized(function: Callable[..., R]) -> Callable[..., R]:
     @wraps(function)
     def call(compiled: Compiled, *key: Hashable) -> R:
         place = (function, *key)
-        if place not in compiled.kept:
+        if place not in compiled.memo:
             before, started = memo_seconds(compiled), clock.perf_counter()
-            compiled.kept[place] = function(compiled, *key)
+            compiled.memo[place] = function(compiled, *key)
             # Nested memoized calls have added their own time meanwhile; it is part of this span.
-            compiled.kept[memo_seconds] = before + clock.perf_counter() - started
-        return compiled.kept[place]
+            compiled.memo[memo_seconds] = before + clock.perf_counter() - started
+        return compiled.memo[place]
 
     return call
 
 
 def memo_seconds(compiled: Compiled) -> float:
     """Return the seconds spent on memoized results: they count as compile time, whichever run needs them first."""
-    return compiled.kept.get(memo_seconds, 0.0)
+    return compiled.memo.get(memo_seconds, 0.0)
 
 
 def memoized_latest(calls: int) -> Callable[[Callable[..., R]], Callable[..., R]]:
@@ -58,7 +58,7 @@ def memoized_latest(calls: int) -> Callable[[Callable[..., R]], Callable[..., R]
     def decorate(function: Callable[..., R]) -> Callable[..., R]:
         @wraps(function)
         def call(compiled: Compiled, *key: Hashable) -> R:
-            known = compiled.kept.setdefault(function, {})
+            known = compiled.memo.setdefault(function, {})
             if key not in known:
                 result = function(compiled, *key)
                 if len(known) == calls:

@@ -51,7 +51,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
 
 def forget(compiled: CompiledModel) -> None:
     """Let the next run find where it starts anew, and measure what that takes."""
-    compiled.kept.pop(kept.__wrapped__, None)
+    compiled.memo.pop(kept.__wrapped__, None)
 
 
 @memoized_latest(1)

@@ -64,7 +64,7 @@ def test_once_for_each_model_and_argument():
         counted.append((model.name, number))
         return 2 * number
 
-    a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
+    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(kept={}, name="b")
     assert [twice(a, 1), twice(a, 1), twice(a, 2), twice(b, 1)] == [2, 2, 4, 2]
     assert counted == [("a", 1), ("a", 2), ("b", 1)]
 
@@ -77,7 +77,7 @@ def test_the_latest_of_each_model():
         counted.append((model.name, number))
         return 2 * number
 
-    a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
+    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(kept={}, name="b")
     asked = [(a, 1), (b, 1), (a, 1), (b, 1), (a, 2), (a, 1), (a, 3), (a, 2), (a, 1)]
     assert [twice(m, k) for m, k in asked] == [2, 2, 2, 2, 4, 2, 6, 4, 2]
     assert counted == [("a", 1), ("b", 1), ("a", 2), ("a", 3), ("a", 1)]

@@ -36,7 +36,7 @@ class Made:
             reduced=reduced,
             constraints=SimpleNamespace(size=0),
             states=[f"x{k}" for k in range(nx)],
-            kept={},
+            memo={},
             pattern=scipy.sparse.csc_matrix(np.ones((n, n))),
         )
 

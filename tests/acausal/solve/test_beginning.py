@@ -68,7 +68,7 @@ def test_a_run_again_is_the_same_to_the_last_bit():
 def test_seconds_of_the_beginning_count_in_every_run():
     compiled = ac.compile(FourBar())
     runs = [ac.simulate(compiled, stop_time=0.01, intervals=1) for _ in range(2)]
-    (first,) = compiled.kept[beginning.kept.__wrapped__].values()
+    (first,) = compiled.memo[beginning.kept.__wrapped__].values()
     assert all(run.stats.solve_seconds > first.seconds > 0 for run in runs)
 
 
