@@ -83,10 +83,10 @@ class Search:
         task = self.runs.task
         numerics = Numerics(ACCURACY.fewest if self.runs.adaptive else 0, self.first, task.method, task.max_order)
         while True:
-            numerics = self._way(numerics)
+            numerics = self._resolving_if_cheaper(numerics)
             state = self._state(numerics)
             if state is None:
-                numerics = self._past_failure(numerics)
+                numerics = self._refined_after_failure(numerics)
                 continue
             if self.best is None or state.estimate.total < self.best.estimate.total:
                 self.best = state
@@ -117,7 +117,7 @@ class Search:
             trials=self.runs.done,
         )
 
-    def _way(self, numerics: Numerics) -> Numerics:
+    def _resolving_if_cheaper(self, numerics: Numerics) -> Numerics:
         """Switch to resolving every vibration at order 5 if refining the present choice would cost more.
 
         Cost of resolving: about one step per radian of the fastest vibration, whatever the tolerance.
@@ -184,7 +184,7 @@ class Search:
         missing = np.log10(min(found.tolerance, 1e3) / self.accuracy)
         return self._tighter(numerics, max(1, int(missing)))
 
-    def _past_failure(self, numerics: Numerics) -> Numerics:
+    def _refined_after_failure(self, numerics: Numerics) -> Numerics:
         """Refine tolerance and elements after a failed run; give up if a run has succeeded or too many have failed."""
         if self.best or len(self.failures) >= ACCURACY.failures:
             raise self._refusal("runs with smaller tolerances or more elements fail")
