@@ -131,7 +131,7 @@ class Result:
         DeclarationError
             If the model has no such variable; the message names the nearest ones.
         """
-        return self._look([key])[0][1]
+        return self._arrays_of([key])[0][1]
 
     def __contains__(self, key: object) -> bool:
         try:
@@ -158,7 +158,7 @@ class Result:
         """
         return [
             Series(name, unit, array[(slice(None), *index)])
-            for quantity, array in self._look(keys or self.outputs)
+            for quantity, array in self._arrays_of(keys or self.outputs)
             for index, name, unit in quantity.entries
         ]
 
@@ -277,7 +277,7 @@ class Result:
         check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])
         return {"time": self.time} | {s.name: s.values for s in self.series(*keys)}
 
-    def _look(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
+    def _arrays_of(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
         """Return quantities with their arrays, and warn of values that are not finite, once per quantity."""
         quantities = [self._find(key) for key in keys]
         found = list(zip(quantities, self._read(quantities), strict=True))

@@ -200,7 +200,7 @@ class _Study:
         found = self._measured(wanted, what)
         return [row(choices, run, self.reference) for choices, run in zip(wanted, found, strict=True)]
 
-    def _fits(self, choices: Choices) -> dict[str, Any]:
+    def _existing(self, choices: Choices) -> dict[str, Any]:
         there = self.variants.fitting(self._with(choices))
         return {path: value for path, value in choices.items() if path in there}
 
@@ -216,7 +216,7 @@ class _Study:
         ways = [
             (a, b)
             for a, b in combinations(sorted(counts, key=lambda r: -r.change()), 2)
-            if a.choices.keys() != b.choices.keys() and len(self._fits({**a.choices, **b.choices})) == 2
+            if a.choices.keys() != b.choices.keys() and len(self._existing({**a.choices, **b.choices})) == 2
         ]
         ways.sort(key=lambda pair: -min(r.change() for r in pair))
         tried, left = ways[:most], max(0, len(ways) - most)
@@ -235,7 +235,7 @@ class _Study:
         targets = {ALL: names} | ({name: [name] for name in names} if len(names) > 1 else {})
         return cheapest(
             {
-                name: search(rows, self.origin, self.standing, outputs, self.accuracy, self._fits)
+                name: search(rows, self.origin, self.standing, outputs, self.accuracy, self._existing)
                 for name, outputs in targets.items()
             },
             lambda wanted: self._rows(wanted, "cheapest sets"),
@@ -243,7 +243,7 @@ class _Study:
 
     def _choices(self, choices: Choices, idle: Sequence[Choices]) -> dict[str, Any]:
         """Return all choices of a set by path, without idle effects at the scene's own choice."""
-        there = self._fits(self._with(choices))
+        there = self._existing(self._with(choices))
         silent = {path for one in idle for path in one if same(there.get(path), self._in_force(self.base)[path])}
         return {path: value for path, value in there.items() if path not in silent}
 

@@ -163,7 +163,7 @@ class Effects:
         if self.idle:
             names = ", ".join(dict.fromkeys(path for choices in self.idle for path in choices))
             yield f"Irrelevant to this scene, because switching them changes no equation: {names}."
-        worth = self._worth()
+        worth = self._notable_interactions()
         if worth:
             yield together(worth)
         if self.interactions:
@@ -180,7 +180,7 @@ class Effects:
             words += f" {self.untried} further pairs with smaller changes were not tried."
         return words
 
-    def _worth(self) -> list[tuple[Interaction, str]]:
+    def _notable_interactions(self) -> list[tuple[Interaction, str]]:
         """Return interactions above the integration error and a fraction of the accuracy, with the most affected output."""
         errors = self.floor.largest
         least = {name: max(POLICY.study.worth * self.accuracy, 3 * errors.get(name, 0.0)) for name in self.outputs}
@@ -194,7 +194,7 @@ class Effects:
     def _recommendation(self) -> Iterator[str]:
         best, standing = self.cheapest[ALL], self.standing
         if best.choices:
-            yield f"For all outputs: {_praise(best, self.reference)}."
+            yield f"For all outputs: {_saving(best, self.reference)}."
         else:
             yield (
                 f"For all outputs together nothing can be left out: every saving changes one of them by more than "
@@ -203,7 +203,7 @@ class Effects:
         groups: dict[str, list[str]] = {}
         for name, row in self.cheapest.items():
             if name != ALL and row.choices != best.choices:
-                groups.setdefault(_praise(row, self.reference), []).append(name)
+                groups.setdefault(_saving(row, self.reference), []).append(name)
         for words, names in groups.items():
             yield f"For {' or '.join(names)} alone: {words}."
         if not self.refused and not standing.error and standing.change() > self.accuracy:
@@ -222,7 +222,7 @@ class Effects:
             yield f"From the scene as it stands to the set for all outputs: {switched}"
 
 
-def _praise(row: EffectRow, reference: EffectRow) -> str:
+def _saving(row: EffectRow, reference: EffectRow) -> str:
     """Describe a set and its saving."""
     if not row.choices:
         return "all effects of the reference"

@@ -56,7 +56,7 @@ class Journal:
             raise ExportError(f"a study cannot keep its cases in {self.path}: it is a device or a pipe; name a file.")
         lines = _lines(self.path) if self.path.exists() else []
         if lines:
-            self._take(lines, dict(identity))
+            self._load(lines, dict(identity))
         else:
             self._write(dict(identity))
 
@@ -96,10 +96,10 @@ class Journal:
         if self.path is not None:
             self.path.unlink(missing_ok=True)
 
-    def _take(self, lines: list[str], identity: dict[str, Any]) -> None:
+    def _load(self, lines: list[str], identity: dict[str, Any]) -> None:
         first = _read(lines[0])
         if not isinstance(first, dict) or not first.keys() & identity.keys():
-            raise DeclarationError(_in_the_way(self.path))
+            raise DeclarationError(_foreign_file(self.path))
         other = [name for name in identity if first.get(name) != json.loads(json.dumps(identity[name]))]
         if other:
             raise DeclarationError(
@@ -129,10 +129,10 @@ def _lines(path: Path) -> list[str]:
     try:
         return read_text(path).splitlines()
     except DeclarationError as error:
-        raise DeclarationError(_in_the_way(path) if "UTF-8" in str(error) else str(error)) from None
+        raise DeclarationError(_foreign_file(path) if "UTF-8" in str(error) else str(error)) from None
 
 
-def _in_the_way(path: Path | None) -> str:
+def _foreign_file(path: Path | None) -> str:
     return (
         f"{path} is in the way: a study keeps its finished cases in a file of this name, and this one is something else. "
         "Move it, or give the CSV file another name."

@@ -53,15 +53,15 @@ class Session:
             kept = self.journal.get(case)
             if kept is not None:
                 self.found[case] = kept
-        self._tell(what)
+        self._report(what)
         own = {case: case for case in new if case not in self.found}
         for measurement in run([self.job.of(case) for case in own], self.executor):
             case = own[measurement.case]
             self.found[case] = replace(measurement, case=case)
             self.journal.add(self.found[case])
-            self._tell(what)
+            self._report(what)
         return [self.found[case] for case in cases]
 
-    def _tell(self, what: str) -> None:
+    def _report(self, what: str) -> None:
         if self.progress:
             self.progress(len(self.found), self.wanted, what)
