@@ -111,8 +111,8 @@ def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled |
             values.append(call.function(*given))
             to += [-1 - place if is_state else guards.n_switches + place for is_state, place in places]
         jump.append(len(to))
-    planned = guards.planned.function(r.p, r.constants)
-    column = ca.vertcat(guards.scale.function(*given, nominal), *values, planned)
+    scheduled = guards.scheduled.function(r.p, r.constants)
+    column = ca.vertcat(guards.scale.function(*given, nominal), *values, scheduled)
     arguments = [r.p, r.constants, r.x, r.z, time.sx, nominal]
     acts = make_tape(ca.Function("acts", arguments, [ca.densify(column)], READABLE))
     c, project = compiled.constraints, None

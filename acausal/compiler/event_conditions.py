@@ -12,7 +12,7 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.compiler.rounding import terms
 from acausal.compiler.set_valued_laws import SetValuedLaws
-from acausal.compiler.time_conditions import functions, planned_times, time_comparisons, truth
+from acausal.compiler.time_conditions import functions, scheduled_times, time_comparisons, truth
 from acausal.compiler.vectorized import Vectorized
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
@@ -125,27 +125,27 @@ class EventConditions:
         return Call(ca.Function("holds_at", given, [ca.densify(stacked(held))]))
 
     @cached_property
-    def planned(self) -> Call:
+    def scheduled(self) -> Call:
         """Function of parameters and constants: scheduled instants, where time passes a discrete variable."""
-        return Call(ca.Function("planned", [self.reduced.p, self.reduced.constants], [self._planned[1]]))
+        return Call(ca.Function("scheduled", [self.reduced.p, self.reduced.constants], [self._scheduled[1]]))
 
     @cached_property
     def smooth(self) -> Call:
         """Function of parameters and constants: instants at which laws declared smooth switch, if linear in time."""
         r = self.reduced
         compared = r.running.resolve(stacked(promise.compared for promise in r.flat.discontinuities.promises))
-        return Call(ca.Function("smooth", [r.p, r.constants], [planned_times(r, compared)[1]]))
+        return Call(ca.Function("smooth", [r.p, r.constants], [scheduled_times(r, compared)[1]]))
 
     @property
     def plans(self) -> list[tuple[int, bool]]:
-        """For each entry of `planned`: the guard of the comparison, and whether the comparison includes equality."""
-        return [self._open[k][1:] for k in self._planned[0]]
+        """For each entry of `scheduled`: the guard of the comparison, and whether the comparison includes equality."""
+        return [self._open[k][1:] for k in self._scheduled[0]]
 
     @cached_property
     def clocked(self) -> list[bool]:
         """Whether each watched guard compares time with discrete variables alone, so that it changes at scheduled instants."""
-        planned = Counter(k for k, _ in self.plans)
-        return [planned[k] == self._compared_in[k] for k in self.watched]
+        scheduled = Counter(k for k, _ in self.plans)
+        return [scheduled[k] == self._compared_in[k] for k in self.watched]
 
     @cached_property
     def _compared_in(self) -> Counter[int]:
@@ -168,8 +168,8 @@ class EventConditions:
         return found
 
     @cached_property
-    def _planned(self) -> tuple[list[int], ca.SX]:
-        return planned_times(self.reduced, self._all[[row for row, *_ in self._open]])
+    def _scheduled(self) -> tuple[list[int], ca.SX]:
+        return scheduled_times(self.reduced, self._all[[row for row, *_ in self._open]])
 
     @cached_property
     def estimate(self) -> Call:

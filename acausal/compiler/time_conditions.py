@@ -60,7 +60,7 @@ def functions(reduced: ReducedModel, excess: ca.SX) -> tuple[ca.Function, ca.Fun
     return ca.Function("excess", given, [ca.densify(excess)]), ca.Function("slope", given, [slope])
 
 
-def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.SX]:
+def scheduled_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.SX]:
     """Find comparisons that are linear in time with coefficients of parameters and constants alone, and their roots.
 
     Parameters

@@ -210,7 +210,7 @@ class Content:
     @cached_property
     def _instants(self) -> ca.SX:
         guards, r = self.compiled.guards, self.compiled.reduced
-        found = ca.vertcat(guards.breaks.function(r.p), guards.planned.function(r.p, r.constants))
+        found = ca.vertcat(guards.breaks.function(r.p), guards.scheduled.function(r.p, r.constants))
         return found if found.numel() else ca.SX(0, 1)
 
     @cached_property
