@@ -38,7 +38,7 @@ class EventConditions:
         Excess of each guard, in x, z, parameters, time and constants.
     timed : list of int
         Guards that compare time with parameters alone: their instants are known before the run.
-    bent : list of int
+    nonlinear : list of int
         The timed guards with a comparison that is nonlinear in time.
     watched : list of int
         All other guards: their excesses are event indicators.
@@ -61,22 +61,22 @@ class EventConditions:
                     f"{guard.origin}: the condition contains a derivative that occurs in no equation. Declare a variable for "
                     "it, such as a: Scalar = variable(...) with a == der(v), and compare that."
                 )
-        decided, bent, compared = time_comparisons(reduced, [g.condition for g in self.guards])
+        decided, nonlinear, compared = time_comparisons(reduced, [g.condition for g in self.guards])
         self.timed, rows, row = list[int](), list[tuple[int, bool, Origin]](), 0
-        self.bent = list[int]()
+        self.nonlinear = list[int]()
         self._open = list[tuple[int, int, bool]]()  # comparisons of watched guards: row, guard, inclusive
         for k, guard in enumerate(self.guards):
             kinds = [part.kind == "<=" for part in guard.condition.comparisons]
             own = range(row, row := row + len(kinds))
             if all(decided[r] for r in own):
                 self.timed.append(k)
-                self.bent += [k] * any(bent[r] for r in own)
+                self.nonlinear += [k] * any(nonlinear[r] for r in own)
                 rows += [(r, inclusive, guard.origin) for r, inclusive in zip(own, kinds, strict=True)]
             else:
                 self._open += [(r, k, inclusive) for r, inclusive in zip(own, kinds, strict=True)]
         self._all, self._decided = compared, [r for r, *_ in rows]
-        self._compared = compared[[r for r, *_ in rows if not bent[r]]]
-        self._bent = [(compared[r], inclusive, origin) for r, inclusive, origin in rows if bent[r]]
+        self._compared = compared[[r for r, *_ in rows if not nonlinear[r]]]
+        self._nonlinear = [(compared[r], inclusive, origin) for r, inclusive, origin in rows if nonlinear[r]]
         timed = set(self.timed)
         self.watched = [k for k in range(len(self.guards)) if k not in timed]
 
@@ -105,7 +105,7 @@ class EventConditions:
         For each: excess and its derivative as functions of parameters and time, whether the comparison includes equality,
         and its origin.
         """
-        return [(*functions(self.reduced, excess), inclusive, origin) for excess, inclusive, origin in self._bent]
+        return [(*functions(self.reduced, excess), inclusive, origin) for excess, inclusive, origin in self._nonlinear]
 
     @cached_property
     def holds_at(self) -> Call:

@@ -30,7 +30,7 @@ def watched(compiled: CompiledModel, given: Given) -> list[int]:
     """Return the guards that are watched: all but those whose instants functions of parameters and constants tell."""
     guards, symbols = compiled.guards, scalars(given.symbols)
     inputs = {symbols[k].element_hash() for k, _ in given.inputs}
-    seen = {*guards.watched, *guards.bent}
+    seen = {*guards.watched, *guards.nonlinear}
     return [
         k
         for k in range(len(guards.guards))
