@@ -99,7 +99,7 @@ def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled |
         As of `core_equations`.
     """
     r, guards = compiled.reduced, compiled.guards
-    if not compiled.nx or guards.differentiated or not guards.plans:
+    if not compiled.nx or guards.differentiated or not guards.scheduled_guards:
         return None
     moving, watched = core_motion(compiled)
     given = r.x, r.z, r.p, time.sx, r.constants

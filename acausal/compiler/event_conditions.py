@@ -137,14 +137,14 @@ class EventConditions:
         return Call(ca.Function("smooth", [r.p, r.constants], [scheduled_times(r, compared)[1]]))
 
     @property
-    def plans(self) -> list[tuple[int, bool]]:
+    def scheduled_guards(self) -> list[tuple[int, bool]]:
         """For each entry of `scheduled`: the guard of the comparison, and whether the comparison includes equality."""
         return [self._open[k][1:] for k in self._scheduled[0]]
 
     @cached_property
     def clocked(self) -> list[bool]:
         """Whether each watched guard compares time with discrete variables alone, so that it changes at scheduled instants."""
-        scheduled = Counter(k for k, _ in self.plans)
+        scheduled = Counter(k for k, _ in self.scheduled_guards)
         return [scheduled[k] == self._compared_in[k] for k in self.watched]
 
     @cached_property
@@ -153,7 +153,7 @@ class EventConditions:
         return Counter(k for _, k, _ in self._open)
 
     @cached_property
-    def lone(self) -> list[int]:
+    def self_scheduling(self) -> list[int]:
         """Clocked guards with one comparison, with discrete variables that only they change: each schedules its next instant."""
         own = [{jump.discrete for jump in guard.jumps} for guard in self.guards]
         changed = Counter(discrete for jumps in own for discrete in jumps)

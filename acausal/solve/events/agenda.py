@@ -136,7 +136,7 @@ class Agenda:
         """Which watched conditions hold where they are 0; where a planned comparison just changes, that tells."""
         found = {k: self.guards.guards[k].inclusive for k in self.guards.watched}
         for (k, inclusive), instant in zip(
-            self.guards.plans, self.guards.scheduled(self.p, at.constants.vector)[0], strict=True
+            self.guards.scheduled_guards, self.guards.scheduled(self.p, at.constants.vector)[0], strict=True
         ):
             if abs(instant - at.time) <= 2 * self.reach(at.time):
                 found[k] = inclusive
