@@ -59,7 +59,7 @@ def main() -> None:
 
 @app.command("list")
 def list_scenes() -> None:
-    """List the scenes, a line each."""
+    """List the scenes with their descriptions."""
     with running():
         known = scenes()
         width = max(map(len, known), default=0)

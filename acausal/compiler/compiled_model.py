@@ -139,7 +139,7 @@ class CompiledModel:
 
     @cached_property
     def constraints(self) -> Constraints:
-        """Loop constraints at position, velocity and acceleration level."""
+        """Constraints at several levels of differentiation, as of closed loops."""
         return Constraints(self.reduced)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Residuals and Jacobian of the loop constraints at position, velocity and acceleration level."""
+"""Residuals and Jacobian of constraints at several levels of differentiation, such as positions and velocities of loops."""
 
 from __future__ import annotations
 

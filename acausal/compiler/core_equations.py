@@ -15,7 +15,7 @@ from acausal.language.functions import time
 
 @memoized
 def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equations:
-    """Return the integrated equations as a tape.
+    """Return the integrated equations as tapes.
 
     Parameters
     ----------

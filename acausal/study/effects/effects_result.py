@@ -156,7 +156,7 @@ class Effects:
         return labelled
 
     def _findings(self) -> Iterator[str | Table]:
-        """What follows the changes: failures, idle effects, interactions, and the cheapest sets."""
+        """Yield failures, idle effects, interactions, and the cheapest sets."""
         for row in self.rows:
             if row.error:
                 yield f"{row.name} failed: {row.error}"

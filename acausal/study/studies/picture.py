@@ -71,7 +71,7 @@ def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str
 
 
 def _curve(axes: Axes, rows: Sequence[StudyRow], name: str, k: int, output: str | None) -> None:
-    """Draw every point of a formulation, and join the best of them."""
+    """Draw all points of a formulation, and join the Pareto-optimal ones."""
     if not rows:
         return
     colour, marker = f"C{k % 10}", MARKERS[k % len(MARKERS)]
