@@ -383,7 +383,7 @@ def test_results_without_a_model_or_time(machine: ac.Result, tmp_path: Path) -> 
     loaded = pickle.loads(pickle.dumps(machine))
     arrays = ac.result_of([0.0, 1.0], {"x": ([0, 1], "m")})
     for result in (loaded, arrays):
-        with pytest.raises(ac.DeclarationError, match="without a model"):
+        with pytest.raises(ac.DeclarationError, match="has no model"):
             result.animate(tmp_path / "run.html")
         assert result._repr_html_() is None
     empty = ac.Result(np.empty(0), machine._evaluate, machine.tree, machine.outputs, machine.stats)
@@ -439,7 +439,7 @@ def test_several_runs_have_one_size(tmp_path: Path, machine: ac.Result) -> None:
     text = (tmp_path / "both.html").read_text()
     assert "</script><b>" not in text
     for wrong in (machine, [machine], {}, {"a": 1}):
-        with pytest.raises(ac.DeclarationError, match="names"):
+        with pytest.raises(ac.DeclarationError, match="dictionary"):
             ac.animate(wrong, tmp_path / "wrong.html")  # type: ignore[arg-type]
 
 

@@ -64,7 +64,7 @@ def test_once_for_each_model_and_argument():
         counted.append((model.name, number))
         return 2 * number
 
-    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(kept={}, name="b")
+    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(memo={}, name="b")
     assert [twice(a, 1), twice(a, 1), twice(a, 2), twice(b, 1)] == [2, 2, 4, 2]
     assert counted == [("a", 1), ("a", 2), ("b", 1)]
 
@@ -77,7 +77,7 @@ def test_the_latest_of_each_model():
         counted.append((model.name, number))
         return 2 * number
 
-    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(kept={}, name="b")
+    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(memo={}, name="b")
     asked = [(a, 1), (b, 1), (a, 1), (b, 1), (a, 2), (a, 1), (a, 3), (a, 2), (a, 1)]
     assert [twice(m, k) for m, k in asked] == [2, 2, 2, 2, 4, 2, 6, 4, 2]
     assert counted == [("a", 1), ("b", 1), ("a", 2), ("a", 3), ("a", 1)]
@@ -85,9 +85,9 @@ def test_the_latest_of_each_model():
 
 def test_places_have_the_same_values_once_a_tape_pays():
     x, p = ca.SX.sym("x", 2), ca.SX.sym("p")
-    rowwise = Vectorized(ca.Function("f", [x, p], [ca.vertcat(ca.sin(x[0]) * p, x[1] / p)]))
+    vectorized = Vectorized(ca.Function("f", [x, p], [ca.vertcat(ca.sin(x[0]) * p, x[1] / p)]))
     xs, p0 = np.random.default_rng(0).standard_normal((PAYS // 2, 2)), np.array([0.7])
-    first, second, third = (rowwise(xs, p0) for _ in range(3))
+    first, second, third = (vectorized(xs, p0) for _ in range(3))
     np.testing.assert_array_equal(second, first)
     np.testing.assert_array_equal(third, first)
-    assert (rowwise._tape is not None) == bool(library())
+    assert (vectorized._tape is not None) == bool(library())

@@ -35,7 +35,7 @@ def test_outputs_are_scalars_if_not_given():
 @pytest.mark.parametrize(
     ("times", "values", "outputs", "words"),
     [
-        (TIMES[::-1], VALUES, (), "increase"),
+        (TIMES[::-1], VALUES, (), "increasing"),
         (TIMES, {"a": (np.zeros(4), "m")}, (), "for each of 5 times"),
         (TIMES, {"a": (np.zeros((5, 1, 1, 1)), "m")}, (), "a scalar, vector or matrix"),
         (TIMES, {"a b": (TIMES, "m")}, (), "named by a path"),
