@@ -49,7 +49,7 @@ def simulate_to_accuracy(accuracy: float, runs: RunCache) -> Result:
     """
     search = Search(accuracy, runs)
     try:
-        return search.report(search.go())
+        return search.report(search.find())
     except KeyboardInterrupt as interrupt:
         complete = [found for found in runs.results.values() if isinstance(found, Result)]
         if search.best:
@@ -78,7 +78,7 @@ class Search:
         self.failures: list[SimulationError] = []
         self.history: list[float] = []
 
-    def go(self) -> State:
+    def find(self) -> State:
         """Refine what causes the larger error until the estimate is small enough."""
         task = self.runs.task
         numerics = Numerics(ACCURACY.fewest if self.runs.adaptive else 0, self.first, task.method, task.max_order)

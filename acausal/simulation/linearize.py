@@ -133,7 +133,7 @@ def linearize(
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
     at = opening(problem, time, how)
-    _refuse_flat(problem, at, how == "steady")
+    _refuse_singular(problem, at, how == "steady")
     inputs, nx = _inputs(compiled), compiled.nx
     slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in inputs]))
     slopes = slopes_at(at)
@@ -154,7 +154,7 @@ def linearize(
     )
 
 
-def _refuse_flat(problem: Problem, at: Point, rests: bool) -> None:
+def _refuse_singular(problem: Problem, at: Point, rests: bool) -> None:
     """Refuse singular configurations; near one, an equilibrium is too inexact for the large forces there."""
     if least_sharpness(problem, at) <= (POLICY.loops.flat if rests else NEARLY_SINGULAR):
         raise InitializationError(f"the model cannot be linearised: {SINGULAR_AT_REST if rests else SINGULAR}")
