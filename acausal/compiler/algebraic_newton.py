@@ -22,7 +22,7 @@ class NewtonStep:
     linear : bool
         Whether the block is linear: one step solves it, up to round-off.
     function : Vectorized
-        From x, z, parameters, time and constants: these unknowns after the step.
+        Function of x, z, parameters, time and constants: these unknowns after the step.
     """
 
     unknowns: np.ndarray

@@ -96,7 +96,7 @@ def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled |
     compiled : CompiledModel
         The model.
     works, moves : bool
-        As of `core_equations`.
+        As in `core_equations`.
     """
     r, guards = compiled.reduced, compiled.guards
     if not compiled.nx or guards.differentiated or not guards.scheduled_guards:

@@ -59,7 +59,7 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), de
 
 
 def still(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), deformation: float = 1.0) -> bytes:
-    """Return several instants in one PNG, earlier ones fainter; arguments as of `film`."""
+    """Return several instants in one PNG, earlier ones fainter; arguments as in `film`."""
     picture = _Picture(scenes, title, values, deformation)
     begin, end = picture.span
     times = np.linspace(begin, end, MOMENTS) if end > begin else [end]

@@ -21,7 +21,7 @@ def invalid_values(quantity: Quantity, array: np.ndarray, time: np.ndarray, why:
     time : array, shape (times,)
         In s.
     why : callable, optional
-        From a row to a message on the equations that are not finite there, "" if all are finite.
+        Function from a row to a message on the equations that are not finite there, "" if all are finite.
     """
     wrong, n = ~np.isfinite(array), time.size
     rows = wrong.reshape(n, -1).any(axis=1)

@@ -37,7 +37,7 @@ class Result:
     time : array, shape (times,)
         In s, read-only as all arrays of a result.
     evaluate : callable
-        From a column of n expressions in the model's symbols to an array of shape (times, n).
+        Function from a column of n expressions in the model's symbols to an array of shape (times, n).
     tree : Component or Snapshot
         The bound model, whose attributes hold the symbols; or a snapshot.
     outputs : tuple of str

@@ -165,7 +165,7 @@ def take_snapshot(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], time
     tree : Component
         The bound model.
     evaluate : callable
-        From a column of n expressions to an array of shape (times, n).
+        Function from a column of n expressions to an array of shape (times, n).
     times : int
         Number of times.
     """

@@ -26,7 +26,7 @@ class CompiledStep:
     Parameters
     ----------
     step : callable
-        From symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
+        Function from symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
         to a vector of other values, of any length. It is called once and must be a pure function of its arguments.
     states, inputs : int
         Sizes n and u.

@@ -56,7 +56,7 @@ def march(
     Parameters
     ----------
     step : callable
-        From symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
+        Function from symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
         to a vector of other values, of any length. It is called once and must be a pure function of its arguments.
     start : array_like, shape (n,)
         State at the start.

@@ -51,7 +51,7 @@ def result_of(
     model : Component or CompiledModel, optional
         A model without closed loops and discrete variables: these are not determined by the states alone.
     parameters : mapping of str to value, optional
-        Values of the parameters of the model by path, as of `simulate`.
+        Values of the parameters of the model by path, as in `simulate`.
     title : str
         Title of the result; the class of the model if not given.
     **stats : Any

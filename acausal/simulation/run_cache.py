@@ -39,7 +39,7 @@ class RunCache:
     model : Component or CompiledModel
         The model; a compiled one must not contain adaptive parts.
     parameters : mapping of str to value or None
-        As of `simulate`.
+        As in `simulate`.
     task : Task
         The task; tolerance, method and order limit are replaced by the numerics.
     """

@@ -38,11 +38,11 @@ def checked_task(
     model : Component or CompiledModel
         The model.
     parameters : mapping of str to value or None
-        As of `simulate`.
+        As in `simulate`.
     given : mapping of str to value
         Settings by the name of the argument, None if not given.
     start_time, energy, progress
-        As of `simulate`.
+        As in `simulate`.
     """
     how = effective_settings(model, parameters, given)
     if how["stop_time"] is None:

@@ -65,7 +65,7 @@ def encode_tree(tree: Component, values: Mapping[str, Expr | str], stated: list[
     stated : list of (statement, Origin)
         Requirements, expectations and separations to include.
     add : callable
-        From an expression to its number.
+        Function from an expression to its number.
     """
     components = list(walk(tree))
     numbers = {id(component): k for k, component in enumerate(components)}
@@ -207,7 +207,7 @@ def decode_tree(data: Mapping[str, Any], decode: Decode) -> Component:
     data : mapping
         From `encode_tree`.
     decode : callable
-        From JSON data to a value.
+        Function from JSON data to a value.
     """
     classes = [_stand_in(entry) for entry in data["classes"]]
     components = [cls.__new__(cls) for cls in (classes[entry["class"]] for entry in data["components"])]

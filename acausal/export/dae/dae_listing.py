@@ -34,7 +34,7 @@ def listing(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | 
     values : mapping of str to Expr or str
         Readable quantities by path.
     add : callable
-        From an expression to its number.
+        Function from an expression to its number.
     """
     r, flat = compiled.reduced, compiled.reduced.flat
     parameters = zip(flat.parameters.names, p.tolist(), strict=True)

@@ -155,7 +155,7 @@ class Reader:
     given : Operations
         From a Writer.
     known : callable
-        From number and name of a symbol to the symbol.
+        Function from number and name of a symbol to the symbol.
 
     Raises
     ------

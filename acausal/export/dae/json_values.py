@@ -81,7 +81,7 @@ def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
     value : object
         Numbers, text, containers, arrays, expressions, units and the classes of `FIELDS`.
     add : callable
-        From an expression to its number.
+        Function from an expression to its number.
     """
     if value is None or isinstance(value, bool | str):
         return value

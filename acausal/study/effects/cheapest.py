@@ -34,7 +34,7 @@ def search(
     accuracy : float
         Largest change as a fraction of an output's range.
     fits : callable
-        From choices to those whose part exists together with the others.
+        Function from choices to those whose part exists together with the others.
     """
 
     def is_good(row: EffectRow) -> bool:
@@ -63,7 +63,7 @@ def cheapest(
     searches : mapping of str to generator
         From `search`, by name.
     measure : callable
-        From a list of choices to a row for each.
+        Function from a list of choices to a row for each.
     """
     found: dict[str, EffectRow] = {}
     answers: dict[str, Any] = dict.fromkeys(searches)

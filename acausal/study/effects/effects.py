@@ -68,7 +68,7 @@ def effects(
     accuracy : float
         Largest change of the outputs that the cheapest set may make, as a fraction of their ranges.
     tolerance, initial, method
-        As of `simulate`.
+        As in `simulate`.
     intervals : int
         Outputs are compared at intervals + 1 equidistant times.
     outputs : sequence of str, optional

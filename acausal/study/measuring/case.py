@@ -34,9 +34,9 @@ class Case:
     max_order : int or None
         Limit of the order; None lets `simulate` choose.
     method : str or None
-        As of `simulate`; None is the model's own.
+        As in `simulate`; None is the model's own.
     constraints : str
-        As of `simulate`.
+        As in `simulate`.
     dt : float or None
         Step in s of the formulation's own integrator, if it is refined by its step instead of the tolerance.
     run : callable or None
@@ -106,7 +106,7 @@ class Job:
     model : bytes
         From `pack`.
     case : Case
-        What to measure.
+        The case.
     stop_time : float
         In s.
     intervals : int
@@ -118,7 +118,7 @@ class Job:
     limit : float
         Seconds after which a run is stopped.
     initial : str, optional
-        As of `simulate`.
+        As in `simulate`.
     home : str
         Module of the class of the model.
     settings : bytes
@@ -164,7 +164,7 @@ class Measurement:
     values : mapping of str to array, shape (times,)
         Scalars by name; arrays entry by entry.
     compile_seconds : float
-        From the model to the first ready integrator.
+        Seconds from the model to the first ready integrator.
     solve_seconds : float
         Median of the repeats: initialisation, choice of the order and integration, without the processor time of other
         processes.
