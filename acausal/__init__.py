@@ -216,14 +216,14 @@ __all__ = [
 
 if TYPE_CHECKING:
     from acausal.export import export_dae, export_fmu, load_dae
-    from acausal.result.several import animate
+    from acausal.result.animate_many import animate
 
 install()
 
 # Loaded on first use: few runs need these modules, and their import takes as long as a small simulation.
 _LATER = {
     **dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export"),
-    "animate": "acausal.result.several",
+    "animate": "acausal.result.animate_many",
 }
 
 

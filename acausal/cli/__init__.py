@@ -1,6 +1,6 @@
 """The `acausal` command."""
 
-from acausal.cli import effects, export, study
+from acausal.cli import effects_command, export_command, study_command
 from acausal.cli.app import app, main
 
-__all__ = ["app", "effects", "export", "main", "study"]
+__all__ = ["app", "effects_command", "export_command", "main", "study_command"]

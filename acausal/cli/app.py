@@ -17,22 +17,22 @@ from acausal.cli.common import (
     Scene,
     Set,
     StopTime,
-    blaming,
     compile_scene,
     make_scene,
+    message_of,
     running,
-    said,
     stop_time_of,
+    user_errors,
 )
 from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
 from acausal.cli.scenes import file_of, find_scene, scenes
-from acausal.cli.streams import ended, tell, tolerant
+from acausal.cli.streams import escape_unencodable, flushed, tell
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
-from acausal.simulation.asked import check_choice, planned
-from acausal.simulation.runs import adaptive
-from acausal.simulation.settings import settled
+from acausal.simulation.model_settings import effective_settings
+from acausal.simulation.run_cache import adaptive
+from acausal.simulation.settings_checks import check_choice, checked_task
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
@@ -50,16 +50,16 @@ app = typer.Typer(
 
 def main() -> None:
     """Run the command line."""
-    tolerant()
+    escape_unencodable()
     try:
         app(prog_name="acausal")
     except SystemExit as end:
-        sys.exit(ended(end.code))
+        sys.exit(flushed(end.code))
 
 
 @app.command("list")
 def list_scenes() -> None:
-    """List the scenes, a line each."""
+    """List the scenes with their descriptions."""
     with running():
         known = scenes()
         width = max(map(len, known), default=0)
@@ -110,14 +110,14 @@ def simulate(
     plot: Annotated[str | None, typer.Option(help="Plot the outputs.", metavar="FILE.png")] = None,
     animate: Annotated[
         str | None,
-        typer.Option(help="Write how it moves: a page for any browser, or FILE.gif, FILE.png.", metavar="FILE.html"),
+        typer.Option(help="Write an animation: a page for any browser, or FILE.gif, FILE.png.", metavar="FILE.html"),
     ] = None,
     values: Annotated[
         list[str] | None,
-        typer.Option(help="What beams can be coloured by there: 'bending moment', 'axial force', all.", metavar="NAME"),
+        typer.Option(help="Colours of beams in the animation: 'bending moment', 'axial force', all.", metavar="NAME"),
     ] = None,
     deformation: Annotated[
-        float, typer.Option(help="Scale of deformations there, 1 to 1000.", metavar="X", show_default=False)
+        float, typer.Option(help="Scale of deformations in the animation, 1 to 1000.", metavar="X", show_default=False)
     ] = 1.0,
     json: Json = None,
     variables: Annotated[
@@ -143,20 +143,20 @@ def simulate(
             "max_order": max_order,
             "initial": initial,
         }
-        with blaming(cls):
+        with user_errors(cls):
             how["stop_time"] = stop_time_of(model, given, stop_time)
-            planned(model, given, how)
+            checked_task(model, given, how)
             compiled = ac.compile(model, parameters=given)
-        # Wrong names are refused before any work.
+        # Refuse wrong names before the run.
         chosen = match(compiled.tree, variables or ())
-        with blaming(cls):
+        with user_errors(cls):
             files.check(compiled.tree)
         if csv is not None:
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
-        chosen_by = settled(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
+        chosen_by = effective_settings(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
         again = chosen_by is not None and bool(adaptive(compiled.tree))
         options = {**how, "parameters": given if again else None, "energy": True}
-        with blaming(cls):
+        with user_errors(cls):
             subject = model if again else compiled
             result = _rescue(lambda show: ac.simulate(subject, **options, progress=show), files, variables, quiet)
         files.write(result, _chosen(result, variables))
@@ -166,7 +166,7 @@ def simulate(
 
 @app.command()
 def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Json = None) -> None:
-    """Compile a scene and report what the compiler did: equations and unknowns, states, what was removed, seconds."""
+    """Compile a scene and report equations, unknowns, states, removed equations and seconds."""
     with running(json) as standard_output:
         check_outputs((file_of(scene), effects), json=json)
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
@@ -196,7 +196,7 @@ def linearize(
 
 
 def _at_start(compiled: CompiledModel) -> AtStart | None:
-    """What the ranks of loops show; they need consistent positions."""
+    """Return the redundant constraints and independent states of loops, which need consistent positions."""
     from acausal.solve.problem import Problem
     from acausal.solve.start.start import start
 
@@ -205,12 +205,14 @@ def _at_start(compiled: CompiledModel) -> AtStart | None:
     try:
         return start(Problem(compiled, compiled.parameter_values(None)), 0.0, 0.0, "guesses").found(compiled)
     except InitializationError as error:
-        tell(f"no consistent start was found, so ranks and independent states are not known: {error}")
+        tell(
+            f"no consistent initial values were found, so redundant constraints and independent states are unknown: {error}"
+        )
         return None
 
 
 def _chosen(result: Result, patterns: list[str] | None) -> list[str]:
-    """Return the names that match; accuracy may have chosen so few volumes that a pattern matches none."""
+    """Return the names that match; with few volumes, as accuracy control may choose, a pattern may match none."""
     found: dict[str, None] = {}
     for pattern in patterns or ():
         try:
@@ -221,12 +223,12 @@ def _chosen(result: Result, patterns: list[str] | None) -> list[str]:
 
 
 def _rescue(compute: Callable[[Progress], Result], files: Files, patterns: list[str] | None, quiet: bool) -> Result:
-    """Run a simulation; where it fails or is interrupted, write what it has computed so far."""
+    """Run a simulation; if it fails or is interrupted, write the results so far."""
     try:
         with progress_bar(not quiet) as show:
             return compute(show)
     except (SimulationError, KeyboardInterrupt) as stop:
         part = getattr(stop, "result", None)
         if isinstance(part, Result):
-            files.write(part, _chosen(part, patterns), error=said(stop) or "interrupted")
+            files.write(part, _chosen(part, patterns), error=message_of(stop) or "interrupted")
         raise

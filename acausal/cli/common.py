@@ -1,4 +1,4 @@
-"""What all commands share: arguments, errors as messages, and how a scene is compiled."""
+"""Common parts of the commands: arguments, errors as messages, compilation of a scene."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from typing import IO, TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from acausal.cli.faults import brief, ended, place_in
+from acausal.cli.faults import brief, exit_error, place_in
+from acausal.cli.option_values import read_settings
 from acausal.cli.scenes import instance
-from acausal.cli.streams import WRONG, aside, tell, unwritten
-from acausal.cli.values import read_settings
+from acausal.cli.streams import WRONG, report_unwritten, reserved_output, tell
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import check_writable
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
 FAILED, INTERRUPTED, TERMINATED = 1, 130, 143
-# What a full, closed or unread standard output gives.
+# Errors of a standard output that is full, closed or no longer read.
 NO_OUTPUT = (errno.EPIPE, errno.ENOSPC, errno.EBADF, errno.EIO, errno.EFBIG)
-STOP_TIME = 1.0  # of a model that declares none, in s
+STOP_TIME = 1.0  # default in s, for models that declare none
 
 Scene = Annotated[str, typer.Argument(help="Name of a scene, or path/to/file.py:ClassName.", show_default=False)]
 Set = Annotated[
@@ -52,7 +52,7 @@ Initial = Annotated[
     typer.Option(
         "--initial",
         metavar="fixed|guesses|steady",
-        help="What to do with states that no condition fixes; fixed if the scene says nothing else.",
+        help="What to do with states without an initial condition; the scene's own or fixed if not given.",
         show_default=False,
     ),
 ]
@@ -66,21 +66,21 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors."
 def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
     """Turn errors into a message and an exit status; yield the stream for a JSON document.
 
-    With `json` "-" everything else that is printed goes to standard error; with `quiet` there are no warnings.
+    With `json` "-" all other output goes to standard error; with `quiet` warnings are hidden.
     """
     try:
         if json not in (None, "-"):
             check_writable(json)
-        with _told(quiet), _terminable(), aside(json == "-") as standard_output:
+        with _print_warnings(quiet), _terminable(), reserved_output(json == "-") as standard_output:
             yield standard_output
     except OSError as error:
         if error.filename is not None or error.errno not in NO_OUTPUT:
             raise
-        raise typer.Exit(unwritten(error)) from None
+        raise typer.Exit(report_unwritten(error)) from None
     except MemoryError:
         _stop("there is not enough memory; take fewer intervals, elements or variables.", FAILED)
     except SimulationError as error:
-        _stop(f"the simulation failed: {said(error)}", FAILED)
+        _stop(f"the simulation failed: {message_of(error)}", FAILED)
     except AcausalError as error:
         _stop(str(error), WRONG)
     except Terminated:
@@ -89,18 +89,18 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
         _stop("interrupted.", INTERRUPTED)
 
 
-def said(error: BaseException) -> str:
-    """Return the message of an error as the command line says it: what was computed is written, not an attribute."""
+def message_of(error: BaseException) -> str:
+    """Return the message of an error in the words of the command line: results are in files, not in `error.result`."""
     return error.text("is kept") if isinstance(error, SimulationError) else str(error)
 
 
 class Terminated(KeyboardInterrupt):
-    """The process was asked to end; what was computed is kept, as after an interrupt."""
+    """SIGTERM was received; results so far are written, as after an interrupt."""
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Treat the first SIGTERM like an interrupt from the keyboard; the second one ends the process at once."""
+    """Treat the first SIGTERM like a keyboard interrupt; a second one ends the process at once."""
 
     def terminate(*_: Any) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -117,9 +117,9 @@ def _terminable() -> Iterator[None]:
 
 
 @contextmanager
-def _told(quiet: bool) -> Iterator[None]:
-    """Print warnings of this package as a line on standard error, each text once or none at all, others as Python does."""
-    told: set[str] = set()
+def _print_warnings(quiet: bool) -> Iterator[None]:
+    """Print warnings of this package on standard error, each text once, or none if quiet; others as Python does."""
+    printed: set[str] = set()
     with warnings.catch_warnings():
         warnings.simplefilter("always", AcausalWarning)
         plain = warnings.showwarning
@@ -127,8 +127,8 @@ def _told(quiet: bool) -> Iterator[None]:
         def show(message: Warning | str, category: type[Warning], *place: Any) -> None:
             if not issubclass(category, AcausalWarning):
                 plain(message, category, *place)
-            elif not quiet and str(message) not in told:
-                told.add(str(message))
+            elif not quiet and str(message) not in printed:
+                printed.add(str(message))
                 tell(f"Warning: {message}")
 
         warnings.showwarning = show
@@ -136,8 +136,8 @@ def _told(quiet: bool) -> Iterator[None]:
 
 
 @contextmanager
-def blaming(cls: type[Model]) -> Iterator[None]:
-    """Name the line of the user's file where Python's own errors come from it."""
+def user_errors(cls: type[Model]) -> Iterator[None]:
+    """Turn Python errors that come from the user's file into messages with file and line."""
     try:
         yield
     except AcausalError:
@@ -145,18 +145,18 @@ def blaming(cls: type[Model]) -> Iterator[None]:
     except Exception as error:
         place = place_in(error, Path(inspect.getfile(cls)))
         if not place:
-            raise  # not the user's fault: whoever repairs the engine needs the traceback
+            raise  # an error of the engine: keep the traceback
         raise DeclarationError(f"{place}: {brief(error)}") from error
     except SystemExit as error:
-        raise ended(error, Path(inspect.getfile(cls))) from None
+        raise exit_error(error, Path(inspect.getfile(cls))) from None
 
 
 def make_scene(
     scene: str, cls: type[Model], settings: list[str] | None, effects: str | None
 ) -> tuple[Model, dict[str, Any]]:
-    """Return a scene and the values that the user gave."""
+    """Return a scene and the values given by the user."""
     values: dict[str, Any] = read_settings(settings or ())
-    with blaming(cls):
+    with user_errors(cls):
         model = instance(cls)
         if effects is not None:
             from acausal.study.effects.choices_file import with_effects
@@ -166,16 +166,16 @@ def make_scene(
 
 
 def compile_scene(scene: str, cls: type[Model], settings: list[str] | None, effects: str | None) -> CompiledModel:
-    """Compile a scene with what the user gave."""
+    """Compile a scene with the values given by the user."""
     import acausal as ac
 
     model, values = make_scene(scene, cls, settings, effects)
-    with blaming(cls):
+    with user_errors(cls):
         return ac.compile(model, parameters=values)
 
 
 def stop_time_of(model: Model, values: dict[str, Any], given: float | None) -> float:
-    """Return the stop time that was given, or the scene's own."""
+    """Return the given stop time, or the scene's own, or the default."""
     own = own_stop_time(model, values) if given is None else given
     return STOP_TIME if own is None else own
 

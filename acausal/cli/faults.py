@@ -1,4 +1,4 @@
-"""What Python itself finds wrong in the user's file: where, and in a few words."""
+"""Python errors in the user's file, as short messages with file and line."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _NOT_THERE = re.compile(r"cannot import name '(.+?)' from '(.+?)'")
 
 
 def place_in(error: BaseException, path: Path) -> str:
-    """Return "file:line" of the innermost line of the user in an error's traceback, "" if there is none.
+    """Return "file:line" of the innermost line of the user's files in a traceback, "" if there is none.
 
     Parameters
     ----------
     error : BaseException
-        What was raised.
+        The error.
     path : Path
-        The user's file; the files beside it, which it imports, are the user's too.
+        The user's file; files beside it count as the user's too.
     """
     if isinstance(error, SyntaxError) and error.filename and _is_users(error.filename, path):
         return f"{error.filename}:{error.lineno}" if error.lineno else error.filename
@@ -33,8 +33,8 @@ def place_in(error: BaseException, path: Path) -> str:
     return f"{lines[-1][0]}:{lines[-1][1]}" if lines else ""
 
 
-def ended(error: SystemExit, path: Path) -> DeclarationError:
-    """Return the error for a file that exits while it is read."""
+def exit_error(error: SystemExit, path: Path) -> DeclarationError:
+    """Return the error for a file that exits when it is loaded."""
     return DeclarationError(
         f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it should "
         'only define a model. Put code that runs, sys.exit included, under `if __name__ == "__main__":`.'
@@ -42,7 +42,7 @@ def ended(error: SystemExit, path: Path) -> DeclarationError:
 
 
 def brief(error: BaseException) -> str:
-    """Return kind and first line of an error, and the remedy where it is known."""
+    """Return type and first line of an error, and the remedy if known."""
     if isinstance(error, AcausalError):
         return str(error)
     text = error.msg if isinstance(error, SyntaxError) else str(error)
@@ -59,17 +59,19 @@ def _not_imported(error: ImportError, text: str) -> str:
     if missing:
         name, module = missing.groups()
         near = most_similar(name, [n for n in dir(sys.modules.get(module)) if n[:1] != "_"])
-        mend = f"; did you mean `{near}`?" if near else "."
-        return f"{type(error).__name__}: there is no `{name}` in {module}{mend}"
+        remedy = f"; did you mean `{near}`?" if near else "."
+        return f"{type(error).__name__}: there is no `{name}` in {module}{remedy}"
     if "relative import" in text:
-        return "the file is no part of a package: write `import helper`, not `from . import helper`, for the file beside it."
+        return (
+            "the file is not in a package: write `import helper`, not `from . import helper`, for the file beside it."
+        )
     if isinstance(error, ModuleNotFoundError) and error.name:
         return f"{type(error).__name__}: {text}; install it, or put {error.name}.py beside this file."
     return f"{type(error).__name__}: {text}"
 
 
 def _is_users(name: str, path: Path) -> bool:
-    """Return whether a file is the user's: the given one, or beside or below it and of no package that is installed."""
+    """Return whether a file is the user's: the given one, or one beside or below it that is not of an installed package."""
     if name == str(path):
         return True
     return name.startswith(f"{path.parent}{os.sep}") and "site-packages" not in name and not name.startswith(_PACKAGES)

@@ -1,4 +1,4 @@
-"""What the command prints: JSON documents, summaries and the progress of long runs."""
+"""Output of the commands: files, JSON documents, summaries and the progress of long runs."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ from acausal.result.lookup import Tree
 from acausal.result.plots import Series
 from acausal.result.statistics import Statistics
 from acausal.result.tables import Table
-from acausal.simulation.accuracy import chosen_text
+from acausal.simulation.accuracy_control import chosen_text
 from acausal.units import parse
 
 FINAL_VALUES = 20
-# Of the size of states: the relative error of smaller outputs is ten times the tolerance or more.
+# Fraction of the nominal value of the states of a unit; smaller outputs have a relative error of ten tolerances or more.
 SMALL = 0.1
-ROUNDING = 1e-12
+ROUNDING = 1e-12  # real part of an eigenvalue relative to its magnitude, below which it is round-off of zero
 Progress = Callable[[float, int], None] | None
 
 
 def check_outputs(reads: Iterable[str | None], **writes: str | None) -> None:
-    """Refuse impossible output files before any work is done.
+    """Check the output files before any work is done.
 
     Parameters
     ----------
     reads : iterable of str or None
         Files that the command reads.
     **writes : str or None
-        Files that it writes, by the name of the option.
+        Files that the command writes, by the name of the option.
     """
     files = [(f"--{option}", path) for option, path in writes.items() if path is not None]
     for option, path in files:
@@ -59,7 +59,7 @@ def check_outputs(reads: Iterable[str | None], **writes: str | None) -> None:
 
 @dataclass(frozen=True)
 class Files:
-    """Where the result of a simulation goes.
+    """The output files of a simulation.
 
     Parameters
     ----------
@@ -68,13 +68,13 @@ class Files:
     csv, plot, json : str or None
         Names of files; `json` may be "-".
     standard_output : text stream
-        For `json` "-".
+        The stream for `json` "-".
     animate : str or None
-        Name of a file for the moving picture.
+        Name of the file of the animation.
     values : tuple of str
-        What beams can be coloured by there.
+        Quantities by which beams can be coloured in the animation.
     deformation : float
-        Scale of deformations there.
+        Scale of deformations in the animation.
     """
 
     scene: str
@@ -87,11 +87,11 @@ class Files:
     deformation: float = 1.0
 
     def check(self, tree: Tree) -> None:
-        """Refuse a moving picture of a model that shows nothing, or of values that it does not have."""
+        """Check that the model has visible parts and the values for the animation."""
         if self.animate is not None:
-            from acausal.result.animated import Asked, check_visible
+            from acausal.result.animated import AnimationOptions, check_visible
 
-            Asked(values=self.values, deformation=self.deformation).check()
+            AnimationOptions(values=self.values, deformation=self.deformation).check()
             check_visible(tree, self.values)
 
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:
@@ -125,13 +125,13 @@ def _json(document: Mapping[str, Any], encoding: str) -> str:
     text = json.dumps(written, ensure_ascii=False, **how) + "\n"
     try:
         text.encode(encoding)
-    except UnicodeEncodeError:  # letters that the stream does not have, or a name of a file that is no text
+    except UnicodeEncodeError:  # a character that the stream cannot encode, or a file name that is not valid UTF-8
         return json.dumps(written, **how) + "\n"
     return text
 
 
 def plain(value: Any) -> Any:
-    """Turn a value into what JSON knows: complex numbers are pairs [re, im], numbers that are not finite are null."""
+    """Convert a value for JSON: complex numbers become pairs [re, im], NaN and infinities null."""
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, np.ndarray | np.generic):
@@ -146,7 +146,7 @@ def plain(value: Any) -> Any:
 
 
 def summary(result: Result) -> str:
-    """Return what a run did and where it ended, as a few lines of text."""
+    """Return a summary of a run: counts, seconds, events, and final values."""
     stats, time = result.stats, result.time
     lines = [
         f"{result.title}: {time[0]:g} s to {time[-1]:g} s, {time.size} points",
@@ -170,9 +170,10 @@ def summary(result: Result) -> str:
 
 
 def _small(stats: Statistics, series: list[Series]) -> list[str]:
-    """Name the outputs that are so small that mostly the absolute part of the tolerance applies.
+    """Return a line for each output so small that the absolute part of the tolerance dominates.
 
-    What is a rounding error of another output of the same unit is 0, as the rate of a direction in which nothing moves.
+    An output below the round-off of another output of the same unit counts as 0, such as the velocity in a direction
+    without motion.
     """
     lines = []
     for s in series[:FINAL_VALUES]:
@@ -198,7 +199,7 @@ def _method(stats: Statistics) -> str:
 
 
 def _events(stats: Statistics) -> list[str]:
-    """Return breaks, events and the energy balance."""
+    """Return lines on break times, events and the energy balance."""
     lines = []
     if stats.break_times:
         lines.append(f"  breaks at {', '.join(f'{t:g}' for t in stats.break_times[:FINAL_VALUES])} s")
@@ -213,12 +214,12 @@ def _events(stats: Statistics) -> list[str]:
 
 
 def modes_table(eigenvalues: np.ndarray) -> str:
-    """Return a table of modes, a line for each real eigenvalue and for each conjugate pair.
+    """Return a table of modes, a row for each real eigenvalue and each conjugate pair.
 
     Parameters
     ----------
     eigenvalues : array of complex
-        In 1/s.
+        Eigenvalues in 1/s.
     """
     size = np.abs(eigenvalues).max(initial=0.0)
     rows = []
@@ -234,21 +235,21 @@ def modes_table(eigenvalues: np.ndarray) -> str:
 
 @contextmanager
 def progress_bar(wanted: bool) -> Iterator[Progress]:
-    """Give a function that shows the progress of a long run on the terminal, or None where there is no terminal."""
+    """Yield a function that shows the progress of a long run on the terminal; None without a terminal."""
     with _bar(wanted) as show:
         yield show and (lambda fraction, steps: show(fraction, 1.0, f"{steps} steps"))
 
 
 @contextmanager
 def runs_bar(wanted: bool) -> Iterator[Callable[[int, int, str], None] | None]:
-    """Give a function that shows how many runs of a study are done, or None where there is no terminal."""
+    """Yield a function that shows how many runs of a study are done; None without a terminal."""
     with _bar(wanted) as show:
         yield show and (lambda done, total, what: show(done, total, f"{done} of {total} runs: {what}"))
 
 
 @contextmanager
 def steps_bar(wanted: bool, total: int) -> Iterator[Callable[[str], None]]:
-    """Give a function that shows on the terminal which of a few steps begins, or nothing where there is no terminal."""
+    """Yield a function that shows on the terminal which of a few stages begins; it does nothing without a terminal."""
     with _bar(wanted) as show:
         done = iter(range(total))
         yield lambda what: show(next(done), total, what) if show else None
@@ -273,7 +274,7 @@ def _bar(wanted: bool) -> Iterator[Callable[[float, float, str], None] | None]:
     task = bar.add_task("", total=1.0)
 
     def show(done: float, total: float, what: str) -> None:
-        bar.start()  # a short run never calls it and shows nothing
+        bar.start()  # a short run never calls this function and so shows no bar
         bar.update(task, completed=done, total=total, description=what)
 
     try:

@@ -7,17 +7,19 @@ import os
 import re
 import sys
 from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeGuard
 
-from acausal.cli.faults import brief, ended, place_in
+from acausal.cli.faults import brief, exit_error, place_in
 from acausal.errors import DeclarationError
 from acausal.language.component import Component, Model
 from acausal.nearest import most_similar
 from acausal.result import shown_name
 from acausal.shadowed import shadowed
 
+LIBRARY = "models"  # the package of scenes, an entry by name: this package does not depend on it
 FORM = "a model of your own is given as path/to/file.py:ClassName."
 _FILE = re.compile(r"(.+?\.py)(?::(.*))?", re.IGNORECASE | re.DOTALL)
 
@@ -25,18 +27,18 @@ _FILE = re.compile(r"(.+?\.py)(?::(.*))?", re.IGNORECASE | re.DOTALL)
 def scenes() -> Mapping[str, type[Model]]:
     """Return the scenes of `models` by name."""
     try:
-        from models import SCENES
+        found = getattr(import_module(LIBRARY), "SCENES", None)
     except ImportError:
-        SCENES = None
+        found = None
     if hidden := shadowed():
         raise DeclarationError(hidden)
-    if not isinstance(SCENES, Mapping):
-        other = getattr(sys.modules.get("models"), "__file__", None)
+    if not isinstance(found, Mapping):
+        other = getattr(sys.modules.get(LIBRARY), "__file__", None)
         raise DeclarationError(
-            f"the scenes are in the package `models`, but {other or 'something else'} has that name; rename it, or start the "
+            f"the scenes are in the package `{LIBRARY}`, but {other or 'something else'} has that name; rename it, or start the "
             "command in another directory."
         )
-    return SCENES
+    return found
 
 
 def find_scene(name: str) -> type[Model]:
@@ -50,7 +52,7 @@ def find_scene(name: str) -> type[Model]:
     Raises
     ------
     DeclarationError
-        If there is none; the message names the nearest ones.
+        If there is none; the message names the most similar one.
     """
     file = _FILE.fullmatch(name)
     if file:
@@ -62,7 +64,7 @@ def find_scene(name: str) -> type[Model]:
 
 
 def file_of(name: str) -> str | None:
-    """Return the file that a scene is in, None where it is one of `models`."""
+    """Return the file of a scene, None if it is one of `models`."""
     file = _FILE.fullmatch(name)
     return file[1] if file else None
 
@@ -73,7 +75,7 @@ def instance(cls: type[Model]) -> Model:
     Parameters
     ----------
     cls : type
-        Of a scene; its constructor must get along without arguments.
+        The class of the scene; its constructor must need no arguments.
     """
     own = inspect.unwrap(cls.__init__)
     needed = [
@@ -101,8 +103,8 @@ def _no_scene(name: str, known: list[str]) -> str:
     if os.path.lexists(path) or os.sep in path or ".py" in path.lower() or ":" in name:
         return f"`{shown}` is neither a scene nor a model in a file of Python; {FORM}"
     near = most_similar(name.lower().replace("_", "-"), known, 0.5)
-    mend = f"; did you mean `{near}`?" if near else "."
-    return f"there is no scene `{shown}`{mend} Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
+    remedy = f"; did you mean `{near}`?" if near else "."
+    return f"there is no scene `{shown}`{remedy} Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
 
 
 def _of_file(path: Path, name: str) -> type[Model]:
@@ -127,7 +129,7 @@ def _of_file(path: Path, name: str) -> type[Model]:
 
 
 def _other(name: str, found: Any) -> str:
-    """Tell what is not the class of a model, and the remedy."""
+    """Return why something is not the class of a model, and the remedy."""
     if found is Model:
         return "is the class from which models are derived: class MyModel(Model)."
     if isinstance(found, Model):
@@ -151,7 +153,7 @@ def _load(path: Path) -> ModuleType:
     except OSError as error:
         raise DeclarationError(f"cannot read {shown_name(path)}: {error.strerror or error}.") from None
     if b"\0" in text:
-        raise DeclarationError(f"{shown_name(path)} is not a text of Python in UTF-8.")
+        raise DeclarationError(f"{shown_name(path)} is not Python text in UTF-8.")
     sys.modules[name] = module
     if str(path.parent) not in sys.path:
         sys.path.insert(0, str(path.parent))
@@ -160,7 +162,7 @@ def _load(path: Path) -> ModuleType:
     except KeyboardInterrupt:
         raise
     except SystemExit as error:
-        raise ended(error, path) from None
+        raise exit_error(error, path) from None
     except BaseException as error:
         raise DeclarationError(f"{place_in(error, path) or path}: {brief(error)}") from error
     return module

@@ -1,4 +1,4 @@
-"""Standard output and standard error, also where they are full, closed or no longer read."""
+"""Standard output and standard error, with handling of streams that are full, closed or no longer read."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ WRONG, UNREAD = 2, 141
 
 
 def tell(text: str) -> None:
-    """Print a line on standard error, if anybody can read it."""
+    """Print a line on standard error; do nothing if it is closed."""
     with suppress(OSError, ValueError):
         typer.echo(text, err=True)
 
 
-def tolerant() -> None:
-    """Write what a terminal cannot show as an escape, rather than fail."""
+def escape_unencodable() -> None:
+    """Escape characters that a terminal cannot show, instead of failing."""
     for stream in (sys.stdout, sys.stderr):
         change: Any = getattr(stream, "reconfigure", None)
         if change is not None:
@@ -30,13 +30,13 @@ def tolerant() -> None:
 
 
 @contextmanager
-def aside(wanted: bool) -> Iterator[IO[str]]:
-    """Give standard output for a document alone: whatever else is printed, by libraries too, goes to standard error.
+def reserved_output(wanted: bool) -> Iterator[IO[str]]:
+    """Reserve standard output for a document: all other output, of libraries too, goes to standard error.
 
     Parameters
     ----------
     wanted : bool
-        False leaves standard output for everything.
+        If False, standard output stays as it is.
     """
     if not wanted:
         yield sys.stdout
@@ -49,7 +49,10 @@ def aside(wanted: bool) -> Iterator[IO[str]]:
 
 @contextmanager
 def _own_descriptor() -> Iterator[IO[str]]:
-    """Give standard output under another number, and let its own lead to standard error, where both are of the system."""
+    """Duplicate the descriptor of standard output, and redirect the original to standard error.
+
+    Streams without a descriptor are yielded as they are.
+    """
     try:
         number, errors = sys.stdout.fileno(), sys.stderr.fileno()
         kept = os.dup(number)
@@ -69,31 +72,31 @@ def _own_descriptor() -> Iterator[IO[str]]:
             own.close()
 
 
-def ended(status: str | int | None) -> str | int | None:
-    """Write what is still to be written on standard output and standard error, and return the exit status."""
+def flushed(status: str | int | None) -> str | int | None:
+    """Flush standard output and standard error, and return the exit status."""
     try:
         if sys.stdout is not None:
             sys.stdout.flush()
     except OSError as error:
-        status = unwritten(error)
+        status = report_unwritten(error)
     try:
         if sys.stderr is not None:
             sys.stderr.flush()
-    except OSError:  # nobody can be told
+    except OSError:  # no stream is left for a message
         _give_up(sys.stderr)
     return status
 
 
-def unwritten(error: OSError) -> int:
-    """Tell why standard output cannot be written, give the rest up, and return the exit status."""
+def report_unwritten(error: OSError) -> int:
+    """Report why standard output cannot be written, discard the rest, and return the exit status."""
     _give_up(sys.stdout)
     if isinstance(error, BrokenPipeError):
-        return UNREAD  # as `head` leaves it: nothing is wrong
+        return UNREAD  # the reader, such as `head`, has closed the pipe: not an error
     tell(f"Error: cannot write standard output: {error.strerror or error}.")
     return WRONG
 
 
 def _give_up(stream: Any) -> None:
-    """Lose what is left in the buffer: Python would try it again as it ends, and change the exit status."""
+    """Discard the buffer of a stream: Python would flush it again at exit, and change the exit status."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -1,7 +1,7 @@
 """Code generation: CasADi functions of a reduced model."""
 
-from acausal.compiler.asked import model_of, values_of
+from acausal.compiler.argument_checks import checked_model, checked_values
 from acausal.compiler.compile import compile, ready
 from acausal.compiler.compiled_model import CompiledModel
 
-__all__ = ["CompiledModel", "compile", "model_of", "ready", "values_of"]
+__all__ = ["CompiledModel", "checked_model", "checked_values", "compile", "ready"]

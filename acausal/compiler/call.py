@@ -1,4 +1,4 @@
-"""Call a CasADi function on arrays in place: a plain call costs more in Python than the function itself."""
+"""CasADi functions evaluated in place on arrays: the conversions of a plain call often cost more than the function."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from acausal.signals import Signals
 
 
 class _Noise(io.StringIO):
-    """Captures what this thread writes; the output of other threads passes through."""
+    """A stream that captures what this thread writes and passes on the output of other threads."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -31,7 +31,7 @@ class _Noise(io.StringIO):
 
 @contextlib.contextmanager
 def quiet() -> Iterator[io.StringIO]:
-    """Hide the output of solvers from the terminal, and from solvers the interrupts that they would take for failures."""
+    """Capture the messages of solvers, and defer interrupts, which solvers would report as failures."""
     noise = _Noise()
     Signals.raise_lost()
     with Signals(), contextlib.redirect_stderr(noise):
@@ -67,13 +67,13 @@ class Call:
         return self.outputs
 
     def clear(self) -> None:
-        """Make all outputs NaN: those that an evaluation does not reach, because of a failure or an interrupt, remain NaN."""
+        """Set all outputs to NaN, so that a failed or interrupted evaluation leaves no old values."""
         self._ran = False
         for array in self.outputs:
             array.fill(np.nan)
 
     def succeeds(self) -> bool:
-        """Evaluate in place, and return whether that worked."""
+        """Evaluate in place; return whether the evaluation succeeded."""
         self._ran = True
         try:
             self.evaluate()
@@ -82,14 +82,14 @@ class Call:
         return not self.buffer.ret()
 
     def attempt(self) -> tuple[bool, str]:
-        """Evaluate in place; return whether that worked, and the solver's messages."""
+        """Evaluate in place; return whether the evaluation succeeded, and the solver's messages."""
         with quiet() as noise:
             done = self.succeeds()
         return done, noise.getvalue()
 
     @property
     def stats(self) -> dict:
-        """Return the statistics of the last evaluation, none where it was interrupted before it began."""
+        """Statistics of the last evaluation; empty if none has begun."""
         try:
             return self.buffer.stats() if self._ran else {}
         except RuntimeError:

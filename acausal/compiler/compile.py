@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler.asked import model_of, values_of
-from acausal.compiler.clock import split_clock
+from acausal.compiler.argument_checks import checked_model, checked_values
 from acausal.compiler.compiled_model import CompiledModel
+from acausal.compiler.model_source import Source
 from acausal.compiler.parameters import Settable
-from acausal.compiler.source import Source
-from acausal.compiler.zeros import mend_of_zeros
+from acausal.compiler.structural_zeros import remedy_for_zeros
+from acausal.compiler.time_conditions import split_time_comparisons
 from acausal.errors import StructurallySingularError, UnbalancedModelError
-from acausal.flatten import flatten
+from acausal.flatten import FlatModel, flatten
 from acausal.garbage import uncollected
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
@@ -51,7 +51,7 @@ def compile(
     Raises
     ------
     AcausalError
-        Where the model is wrong: part, line, cause and mend.
+        If the model is wrong; the message names part, line, cause and remedy.
     """
     seconds: dict[str, float] = {}
     started = clock.perf_counter()
@@ -62,47 +62,51 @@ def compile(
         seconds[stage] = now - started
         started = now
 
-    model, parameters = model_of(model), values_of(parameters)
+    model, parameters = checked_model(model), checked_values(parameters)
     free = (free,) if isinstance(free, str) else tuple(free)
     flat = flatten(model, parameters, free)
     settable = Settable(flat)
-    settable.values(None)  # a length of 0 also breaks the structure: report the cause first
+    settable.values(None)  # a parameter out of its limits, such as a length of 0, is reported before its consequences
     lap("flatten")
-    try:
-        plan, linear = plan_of(flat)
-    except (UnbalancedModelError, StructurallySingularError) as error:
-        what, _, why = str(error).partition("\n")
-        if mend := mend_of_zeros(model, parameters, flat, error):
-            why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), mend])
-        raise type(error)("\n".join(filter(None, (what, why)))) from None
+    plan, linear = _analysed(flat, model, parameters)
     lap("analyse")
-    reduced = split_clock(reduce(flat, plan, linear))
+    reduced = split_time_comparisons(reduce(flat, plan, linear))
     lap("reduce")
     compiled = CompiledModel(
         reduced,
         seconds,
         Source(partial(compile, free=free) if free else compile, model, parameters),
-        kept={Settable: settable},  # what it checked is not checked again
+        memo={Settable: settable},  # its values have been checked already
     )
-    _ = (
-        compiled.local,
-        compiled.values,
-        compiled.start,
-        compiled.guards.breaks,
-        compiled.guards.estimate,
-        compiled.hoist,
-        compiled.constraints,
-    )
-    compiled.guards.check()
+    _generate(compiled)
     lap("generate")
     return compiled
+
+
+def _analysed(flat: FlatModel, model: Component, parameters: Mapping[str, Any]) -> tuple[Any, Any]:
+    """Return the plan of the reduction and its linear terms; an error names parameters whose zeros leave the model incomplete."""
+    try:
+        return plan_of(flat)
+    except (UnbalancedModelError, StructurallySingularError) as error:
+        what, _, why = str(error).partition("\n")
+        if remedy := remedy_for_zeros(model, parameters, flat, error):
+            why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), remedy])
+        raise type(error)("\n".join(filter(None, (what, why)))) from None
+
+
+def _generate(compiled: CompiledModel) -> None:
+    """Generate the functions that every run needs, so that their seconds count as compile time."""
+    guards = compiled.guards
+    _ = compiled.local, compiled.values, compiled.start, guards.breaks, guards.estimate, compiled.hoist
+    _ = compiled.constraints
+    guards.check()
 
 
 def ready(
     model: Component | CompiledModel, parameters: Mapping[str, Any] | None = None
 ) -> tuple[CompiledModel, np.ndarray]:
-    """Compile a model that is not compiled yet; return it with the values of its free parameters after some changes."""
+    """Return the compiled model, compiling it if needed, and the values of its free parameters after the changes."""
     if isinstance(model, CompiledModel):
-        return model, model.settable.values(values_of(parameters))
+        return model, model.settable.values(checked_values(parameters))
     compiled = compile(model, parameters)
     return compiled, compiled.settable.values(None)

@@ -1,4 +1,4 @@
-"""The compiled model: functions of states, algebraic unknowns, parameters and time, ready to integrate."""
+"""The compiled model: functions of states, algebraic unknowns, parameters and time."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ import casadi as ca
 import numpy as np
 import scipy
 
+from acausal.compiler.algebraic_newton import NewtonStep, newton_steps
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
-from acausal.compiler.constraints import Constraints
+from acausal.compiler.constraint_jacobian import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
-from acausal.compiler.guards import Guards
-from acausal.compiler.local import Local
-from acausal.compiler.once import once
+from acausal.compiler.event_conditions import EventConditions
+from acausal.compiler.linearization import PointLinearization
+from acausal.compiler.memo import memoized
+from acausal.compiler.model_source import Source, pickled
 from acausal.compiler.parameters import Settable
-from acausal.compiler.passes import Pass, make_passes
 from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
-from acausal.compiler.rowwise import Rowwise
-from acausal.compiler.source import Source, pickled
+from acausal.compiler.vectorized import Vectorized
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.locks import exclusive
@@ -42,25 +42,25 @@ class CompiledModel:
     seconds : dict of str to float
         Time of each stage of compiling.
     source : Source, optional
-        What it was compiled from: a pickle holds that alone.
+        What it was compiled from; a pickle holds nothing else.
     declared : mapping of str to value, optional
-        What a model without a source declares of its simulation, numbers or expressions of parameters.
+        Simulation settings declared by a model without a source: numbers or expressions of parameters.
     """
 
     reduced: ReducedModel
     seconds: dict[str, float] = field(default_factory=dict)
     source: Source | None = None
     integrators: dict[tuple, Call] = field(default_factory=dict)
-    kept: dict[Any, Any] = field(default_factory=dict)
+    memo: dict[Any, Any] = field(default_factory=dict)
     declared: Mapping[str, Any] | None = None
 
     @exclusive
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the model, which is compiled again by whoever reads it."""
+        """Pickle the source of the model; unpickling compiles it again."""
         return pickled(self.source)
 
     def __copy__(self) -> CompiledModel:
-        # The equations never change; everything that is computed from them is recomputed.
+        # The equations are immutable and shared; all that is computed from them is computed again.
         return CompiledModel(self.reduced, dict(self.seconds), self.source, declared=self.declared)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
@@ -68,7 +68,7 @@ class CompiledModel:
 
     @property
     def tree(self) -> Any:
-        """The bound model; its attributes are the symbols of its variables."""
+        """The bound model, whose attributes are the symbols of its variables."""
         return self.reduced.flat.tree
 
     @cached_property
@@ -84,16 +84,16 @@ class CompiledModel:
     @property
     @exclusive
     def report(self) -> dict[str, Any]:
-        """Sizes at each stage, states, what was removed, and seconds."""
+        """Sizes at each stage, states, removed equations, and seconds."""
         return self.report_at()
 
     def report_at(self, found: AtStart | None = None) -> dict[str, Any]:
-        """Return the report with what was found at a start."""
+        """Return the report, with the findings at a start."""
         return report(self.reduced, self.local.function, found or AtStart(), self.seconds)
 
     @exclusive
     def summary(self, found: AtStart | None = None) -> str:
-        """Return the report as text, with what was found at a start."""
+        """Return the report as text, with the findings at a start."""
         return summary(self.report_at(found))
 
     @property
@@ -113,7 +113,7 @@ class CompiledModel:
 
     @cached_property
     def nominal(self) -> np.ndarray:
-        """Typical size of each state and algebraic unknown."""
+        """Nominal value of each state and algebraic unknown."""
         own, plan = self.reduced.flat.unknowns, self.reduced.plan
         nominal = np.concatenate([own.nominal, np.ones(plan.system.n_variables - len(own.nominal))])
         for p in plan.constrained.projections:
@@ -122,7 +122,7 @@ class CompiledModel:
 
     @cached_property
     def sizes(self) -> tuple[tuple[str, bool], ...]:
-        """Unit of each state, its name where that is not known, and whether its nominal value is declared."""
+        """For each state its unit, or its name if the unit is unknown, and whether its nominal value is declared."""
         own, plan = self.reduced.flat.unknowns, self.reduced.plan
         of = {p.state: p.coordinate for p in plan.constrained.projections}
         places = [of.get(k, k) for k in plan.states]
@@ -139,7 +139,7 @@ class CompiledModel:
 
     @cached_property
     def constraints(self) -> Constraints:
-        """Constraints that hold at several levels."""
+        """Constraints at several levels of differentiation, as of closed loops."""
         return Constraints(self.reduced)
 
     @cached_property
@@ -150,18 +150,18 @@ class CompiledModel:
 
     @cached_property
     def values(self) -> Call:
-        """Function of ode, alg and conditions."""
+        """Function that returns ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
-    @once
-    def passes(self, wanted: tuple[int, ...]) -> tuple[Pass, ...]:
-        """Newton steps that solve for algebraic unknowns and all that they need, one part after the other."""
+    @memoized
+    def newton_steps(self, wanted: tuple[int, ...]) -> tuple[NewtonStep, ...]:
+        """Return Newton steps, in block order, that solve for algebraic unknowns and all on which they depend."""
         alg = self._shared[self.nx : self.nx + self.nz]
-        return make_passes(alg, self.reduced.z, self.arguments[:-1], *self.dependence.needed(wanted))
+        return newton_steps(alg, self.reduced.z, self.arguments[:-1], *self.dependence.needed(wanted))
 
     @property
     def dependence(self) -> Dependence:
-        """Which algebraic unknowns a value needs."""
+        """The algebraic unknowns on which an expression depends."""
         return self.reduced.dependence
 
     @cached_property
@@ -170,18 +170,20 @@ class CompiledModel:
 
     @cached_property
     def local(self) -> Call:
-        """Function of ode, alg and conditions with their sparse Jacobian by (x, z)."""
+        """Function that returns ode, alg and conditions, and their sparse Jacobian by (x, z)."""
         J = ca.jacobian(self._equations, ca.vertcat(self.reduced.x, self.reduced.z))
         return Call(ca.Function("local", self.arguments, [ca.densify(self._equations), J]))
 
-    def at(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray, flag: float) -> Local:
+    def at(
+        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray, flag: float
+    ) -> PointLinearization:
         """Evaluate equations and Jacobian at a point."""
         value, entries = self.local(x, z, p, t, constants, flag)
-        return Local(value.copy(), entries.copy(), self.pattern)
+        return PointLinearization(value.copy(), entries.copy(), self.pattern)
 
     @cached_property
     def pattern(self) -> scipy.sparse.csc_matrix:
-        """Sparsity of the Jacobian: all its entries are 0."""
+        """Sparsity pattern of the Jacobian, with all entries 0."""
         found = self.local.function.sparsity_out(1)
         rows, starts = (np.array(k, dtype=np.int32) for k in (found.row(), found.colind()))
         return scipy.sparse.csc_matrix((np.zeros(len(rows)), rows, starts), shape=found.shape)
@@ -198,7 +200,7 @@ class CompiledModel:
 
     @cached_property
     def layout(self) -> Layout:
-        """How many constants a segment has."""
+        """Layout of the vector of constants."""
         guards, constraints = self.guards, self.constraints
         moves = self.reduced.projections.choice.numel() > 0
         parts = len(self.reduced.flat.loops.of_parts) if moves else 0
@@ -206,17 +208,17 @@ class CompiledModel:
         return Layout(*counts, int(moves), constraints.entries.shape[1])
 
     @cached_property
-    def guards(self) -> Guards:
-        """Conditions that are watched during the integration."""
-        return Guards(self.reduced, self.start.function)
+    def guards(self) -> EventConditions:
+        """Event conditions of the model."""
+        return EventConditions(self.reduced, self.start.function)
 
     def integrator(
         self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool, sized: bool
     ) -> Call:
-        """Return the integrator for a relative grid and options, built once.
+        """Return the integrator for a relative output grid and options; it is built once.
 
-        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the constants are its parameters; if it
-        sees states over their sizes, so are these.
+        Time is scaled, t = t0 + s T. Its parameters are t0, T, the hoisted expressions of parameters and the constants; if
+        `sized`, the states are divided by their sizes, which are further parameters.
         """
         chosen = tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items()))
         key = (plugin, grid, chosen, energy, moves, sized)
@@ -230,12 +232,12 @@ class CompiledModel:
 
     @cached_property
     def _shared(self) -> ca.SX:
-        """Derivatives of the states, residuals and powers in one column, with what they have in common written once."""
+        """Derivatives of the states, residuals and powers in one column, with common subexpressions shared."""
         return ca.cse(ca.vertcat(self.reduced.running.ode, self.reduced.running.alg, self.powers))
 
     @cached_property
     def _hoisted(self) -> tuple[ca.SX, ca.SX, ca.SX]:
-        """Equations with everything that follows from parameters alone replaced by symbols, computed once a run."""
+        """Equations with expressions of parameters alone replaced by symbols, which are evaluated once a run."""
         r = self.reduced
         column, symbols, values = ca.extract_parametric(self._shared, r.p)
         own = {s.element_hash() for s in scalars(r.p)}
@@ -249,14 +251,14 @@ class CompiledModel:
         return self.reduced.running.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
 
     @cached_property
-    def power(self) -> Rowwise:
+    def power(self) -> Vectorized:
         """Function of x, z, parameters, time and constants: supplied and dissipated power."""
-        return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(self.powers)]))
+        return Vectorized(ca.Function("power", self.arguments[:-1], [ca.densify(self.powers)]))
 
     @cached_property
-    def rates(self) -> Rowwise:
+    def rates(self) -> Vectorized:
         """Function of x, z, parameters, time and constants: derivatives of the states."""
-        return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
+        return Vectorized(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
 
     @cached_property
     def energy(self) -> ca.SX:
@@ -270,16 +272,16 @@ class CompiledModel:
 
     @cached_property
     def hoist(self) -> Call:
-        """Function of parameters: what the integrated equations need of them."""
+        """Function of parameters: the hoisted expressions that the integrated equations take as parameters."""
         return Call(ca.Function("hoist", [self.reduced.p], [ca.densify(self._hoisted[2])]))
 
-    @once
+    @memoized
     def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
         return make_dae(self.reduced, self._hoisted, quadratures, moves)
 
     @exclusive
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
-        """Return the values of all free parameters after some changes; see `Settable`."""
+        """Return the values of all free parameters after the changes; see `Settable`."""
         return self.settable.values(changes)
 
     @exclusive
@@ -289,10 +291,10 @@ class CompiledModel:
 
     @property
     def requirements(self) -> Requirements:
-        """What components require of parameters, and of variables at the start."""
+        """Requirements of components on parameters, and on variables at the start."""
         return self.settable.requirements
 
     @cached_property
     def settable(self) -> Settable:
-        """Its parameters, for callers that let no other thread in."""
-        return self.kept.get(Settable) or Settable(self.reduced.flat)
+        """The settable parameters, for callers that hold the lock."""
+        return self.memo.get(Settable) or Settable(self.reduced.flat)

@@ -1,4 +1,4 @@
-"""What the equations take as constant between two instants of a run."""
+"""Quantities that are constant between two events: switches, discrete variables, independent loop closures, projections."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class Constants:
-    """Constants of a segment of a run.
+    """Constants between two events.
 
     Attributes
     ----------
     switches : array
-        1 where the condition of a switch holds.
+        1 where the condition of the switch holds, else 0.
     discretes : array
         Values of the discrete variables.
     closures : array
-        1 where the constraints of a closure count, 0 where they are redundant.
+        1 where the constraints of a closure are independent, 0 where they are redundant.
     shares : array, shape (n, n)
-        For each constraint of a part how much of what works on each of them counts in its place where it is redundant.
+        For redundant constraints stated by parts: the distribution of the constraint forces over the constraints.
     moves : bool or None
-        Whether D are factors of the constraint Jacobian, which moves along, or numbers; None where nothing is constrained.
+        Whether D scales the current constraint Jacobian (True) or is a fixed matrix (False); None without constraints.
     feedback : float
-        How fast states return to invariants, in 1/s.
+        Rate at which states return to invariants, in 1/s.
     D : array
-        Directions along which coordinates are projected on the constraints, see `Constraints.entries`.
+        Directions of the projection onto the constraints, see `Constraints.entries`.
     """
 
     switches: np.ndarray
@@ -40,7 +40,7 @@ class Constants:
 
     @cached_property
     def vector(self) -> np.ndarray:
-        """All of them, in the order of `ReducedModel.constants`."""
+        """All constants in the order of `ReducedModel.constants`."""
         moves = [] if self.moves is None else [float(self.moves)]
         return np.concatenate(
             [self.switches, self.discretes, self.closures, self.shares.T.ravel(), moves, self.D, [self.feedback]]
@@ -48,11 +48,11 @@ class Constants:
 
     @cached_property
     def all_count(self) -> bool:
-        """Whether the constraints of all closures count."""
+        """Whether the constraints of all closures are independent."""
         return bool(np.all(self.closures > 0))
 
     def switched(self, places: np.ndarray | list[int], on: np.ndarray | list[bool]) -> Constants:
-        """Return the constants with some switches on or off."""
+        """Return the constants with the given switches set."""
         if not len(places):
             return self
         switches = self.switches.copy()
@@ -62,9 +62,9 @@ class Constants:
 
 @dataclass(frozen=True)
 class Layout:
-    """How many constants of each kind a model has: switches, discrete variables, closures, those of parts, entries of D.
+    """Number of constants of each kind: switches, discrete variables, closures, constraints stated by parts, entries of D.
 
-    `moves` is 1 where the projection may move.
+    `moves` is 1 if the projection may follow the constraint Jacobian.
     """
 
     switches: int
@@ -75,7 +75,7 @@ class Layout:
     D: int
 
     def begin(self, head: np.ndarray, feedback: float) -> Constants:
-        """Return constants with which all closures count, without D, from switches and discrete variables."""
+        """Return constants from switches and discrete variables, with all closures independent and D = 1."""
         switches, discretes = np.split(head, [self.switches])
         return Constants(
             switches,
@@ -88,7 +88,7 @@ class Layout:
         )
 
     def constants(self, vector: np.ndarray) -> Constants:
-        """Return the constants in a vector."""
+        """Return the constants that a vector holds."""
         head = self.switches + self.discretes
         first = head + self.closures + self.parts**2 + self.moves
         closures, D = self.closures_of(vector), vector[first:-1]
@@ -99,6 +99,6 @@ class Layout:
         )
 
     def closures_of(self, vectors: np.ndarray) -> np.ndarray:
-        """Return which closures count, in the last dimension, from vectors of constants."""
+        """Return the flags of independent closures, in the last dimension, from vectors of constants."""
         head = self.switches + self.discretes
         return vectors[..., head : head + self.closures]

@@ -1,4 +1,4 @@
-"""The equations of a model as the core takes them."""
+"""The equations of a model as tapes of the core."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
 from acausal.instructions import READABLE
 from acausal.language.functions import time
 
 
-@once
+@memoized
 def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equations:
-    """Return the equations that are integrated.
+    """Return the integrated equations as tapes.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equatio
     return make_equations(*arguments, ode, alg)
 
 
-@once
+@memoized
 def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
-    """Return the laws of time alone that the equations hold, of x, z, time, p and constants; None if there are none.
+    """Return the subexpressions of the equations that depend on time, p and constants alone; None if there are none.
 
     Parameters
     ----------
@@ -48,9 +48,9 @@ def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
     return laws_of(core_equations(compiled, False, moves).values, 2, (3, 4))
 
 
-@once
+@memoized
 def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
-    """Return the equations that determine algebraic unknowns and all that they need, of p, constants, x, z and time.
+    """Return the square system, of p, constants, x, z and time, of algebraic unknowns and all on which they depend.
 
     Parameters
     ----------
@@ -63,14 +63,14 @@ def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
     return make_square([r.p, r.constants, r.x, r.z, time.sx], 2, r.running.alg[equations.tolist()], 3, unknowns)
 
 
-@once
+@memoized
 def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
-    """Return how watched excesses move, of p, constants, x, z, time and the rates of some algebraic unknowns.
+    """Return the watched excesses and their rates, of p, constants, x, z, time and the rates of some algebraic unknowns.
 
     Returns
     -------
     square : Square or None
-        The equations of these rates; None where there are no such unknowns.
+        The equations of these rates; None if there are no such unknowns.
     tape : Tape
         Watched excesses, then their rates.
     """

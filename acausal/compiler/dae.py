@@ -1,4 +1,4 @@
-"""The DAE as an integrator takes it: in scaled time, and in states over their sizes."""
+"""The DAE for CasADi's integrators: in scaled time, optionally in scaled states."""
 
 from __future__ import annotations
 
@@ -8,21 +8,23 @@ import numpy as np
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 
-# Size of algebraic unknowns in the error test of a method that cannot leave them out.
+# Scale of algebraic unknowns for integrators that cannot exclude them from the error test: it makes them negligible there.
 UNSEEN = 1e10
 
 
 def make_dae(
     reduced: ReducedModel, hoisted: tuple[ca.SX, ca.SX, ca.SX], quadratures: bool, moves: bool
 ) -> dict[str, ca.SX]:
-    """Write the equations in s, where time is t0 + s T; t0, T, what follows from parameters and constants are parameters.
+    """Return the equations in scaled time s, t = t0 + s T.
+
+    The parameters are t0, T, the hoisted expressions of parameters, and the constants.
 
     Parameters
     ----------
     reduced : ReducedModel
         The model.
     hoisted : tuple of casadi.SX
-        Derivatives of the states, residuals and powers in one column; what of it follows from parameters alone.
+        Derivatives of the states, residuals and powers in one column; the hoisted symbols; their expressions.
     quadratures : bool
         Whether to integrate the powers.
     moves : bool
@@ -39,7 +41,7 @@ def make_dae(
 
 
 def in_sizes(dae: dict[str, ca.SX], nominal: np.ndarray) -> dict[str, ca.SX]:
-    """Write a DAE in states over their sizes, which become parameters, and algebraic unknowns over large nominal values."""
+    """Scale a DAE: states by their sizes, which become parameters, algebraic unknowns by large nominal values."""
     x, z, size = ca.SX.sym("x", dae["x"].numel()), ca.SX.sym("z", dae["z"].numel()), ca.SX.sym("size", dae["x"].numel())
     keys = [k for k in ("ode", "alg", "quad") if k in dae]
     written = ca.substitute([dae[k] for k in keys], [dae["x"], dae["z"]], [size * x, UNSEEN * ca.DM(nominal) * z])

@@ -1,7 +1,7 @@
-"""Interval arithmetic: bounds of a function of time while time lies between two bounds.
+"""Interval arithmetic (Moore 1966): bounds of a function of time over intervals of time.
 
-The instructions of a CasADi function are followed with a lower and an upper bound for every value, for many intervals of
-time at once. Bounds are never too narrow.
+The instructions of a CasADi function are evaluated with a lower and an upper bound for every value, for many intervals at
+once. The bounds always enclose the range.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 Bounds = tuple[np.ndarray, np.ndarray]
-# Relative widening after each operation, so that rounding is inside the bounds.
+# Relative widening after each operation, twice the unit round-off, so that the bounds enclose round-off as well.
 ROUNDING = 4e-16
 _RISING: dict[int, Callable[[np.ndarray], np.ndarray]] = {
     ca.OP_ASSIGN: np.positive,
@@ -47,17 +47,17 @@ def bounds(function: ca.Function, p: np.ndarray, low: np.ndarray, high: np.ndarr
     Parameters
     ----------
     function : casadi.Function
-        Of scalars (SX), `bounded`.
+        A function of scalar symbols (SX) that is `bounded`.
     p : array
         Parameter values.
     low, high : arrays, shape (n,)
-        Intervals of time; where both are equal, the bounds are the value.
+        Intervals of time; a degenerate interval gives the value itself.
 
     Returns
     -------
     bounds : two arrays, shape (n,)
     jumps : array of bool, shape (n,)
-        Where the function may jump, so that its derivative does not describe its change.
+        Whether the function may jump inside the interval, so that its derivative does not bound its change.
     """
     whole = np.full(len(low), np.inf)
     result, jumps = (-whole, whole), np.zeros(len(low), dtype=bool)
@@ -90,12 +90,12 @@ def bounds(function: ca.Function, p: np.ndarray, low: np.ndarray, high: np.ndarr
 
 
 def bounded(function: ca.Function) -> bool:
-    """Whether all operations of a function are known here."""
+    """Return whether interval arithmetic knows all operations of a function."""
     return all(function.instruction_id(k) in _KNOWN for k in range(function.n_instructions()))
 
 
 def _apply(op: int, a: Bounds, b: Bounds) -> tuple[Bounds, np.ndarray]:
-    """Bounds of one operation, and where it may jump."""
+    """Return the bounds of one operation, and where it may jump."""
     never = np.zeros(len(a[0]), dtype=bool)
     if op in _RISING:
         one = _RISING[op](a[0]), _RISING[op](a[1])
@@ -129,7 +129,7 @@ def _inverse(a: Bounds) -> Bounds:
 
 
 def _sine(a: Bounds, shift: float = 0.0) -> Bounds:
-    """sin(x + shift): -1 and 1 where such a point lies inside, else the ends."""
+    """Bounds of sin(x + shift): -1 or 1 if an extremum lies inside the interval, otherwise the values at its ends."""
     ends = np.sin(a[0] + shift), np.sin(a[1] + shift)
 
     def holds(angle: float) -> np.ndarray:
@@ -147,7 +147,7 @@ def _tangent(a: Bounds, b: Bounds) -> Bounds:
 
 
 def _power(a: Bounds, b: Bounds) -> Bounds:
-    """Powers of what is positive; of anything with whole exponents."""
+    """Bounds of powers: any base with an integer exponent, otherwise nonnegative bases only."""
     low, high = _corners(np.power, (np.maximum(a[0], 0.0), np.maximum(a[1], 0.0)), b)
     n = b[0][0] if b[0].size else 1.0
     if np.all(b[0] == n) and np.all(b[1] == n) and n == round(n):

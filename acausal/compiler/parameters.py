@@ -35,16 +35,16 @@ class Settable:
     def __init__(self, flat: FlatModel) -> None:
         self.own, self.tree = flat.parameters, flat.tree
         self.requirements = Requirements(flat.tree, flat.parameters.symbols)
-        self._accepted: bytes | None = None  # the values that were accepted last
+        self._accepted: bytes | None = None  # the last values that passed the checks
 
     def values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
-        """Return the values of all free parameters after some changes.
+        """Return the values of all free parameters after the changes.
 
         Raises
         ------
         DeclarationError
-            For an unknown name, a structural parameter, a structural zero, a parameter that follows others, or a
-            value out of its limits.
+            For an unknown name, a structural parameter, a structural zero, a parameter bound to others, or a value out of
+            its limits.
         """
         values = self.own.values.copy()
         for path, value in (changes or {}).items():
@@ -56,7 +56,7 @@ class Settable:
         return values
 
     def value(self, path: str) -> Any:
-        """Return the value of a parameter, as a number or an array, or that of a structural parameter or an effect.
+        """Return the value of a parameter (a number or an array), a structural parameter or an effect.
 
         Raises
         ------
@@ -74,33 +74,15 @@ class Settable:
             return value
         known = {s.element_hash() for s in scalars(self.own.symbols)}
         if any(s.element_hash() not in known for s in ca.symvar(value.sx)):
-            raise DeclarationError(f"`{path}` is a variable, whose values a result has: result[{path!r}].")
+            raise DeclarationError(f"`{path}` is a variable; read its values with result[{path!r}].")
         found = Call(ca.Function("value", [self.own.symbols], [ca.densify(value.sx)]))(self.values(None))[0]
         return found.reshape(value.shape, order="F").copy() if value.shape else float(found[0])
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
-        if isinstance(value, Expr):
-            what = f"{value!r}, an expression; a compiled model takes numbers"
-            mend = f"a quantity; give the number alone, in SI units: {{{path!r}: {value!r}}}"
-            raise DeclarationError(f"`{path}` is {mend if value.sx.is_constant() else what}.")
-        if isinstance(value, Mapping):
-            inner = next(iter(value), "m")
-            raise DeclarationError(
-                f'`{path}` is {value!r}; write the whole path of each value: {{"{path}.{inner}": ...}}.'
-            )
-        own = self.own
+        """Set the entries of one parameter in the array of all values."""
+        _check_kind(path, value)
+        own, entries = self.own, self._entries(path)
         index = {name: k for k, name in enumerate(own.names)}
-        prefix = path + "["
-        entries = [n for n in (*index, *own.structural_zeros) if n == path or n.startswith(prefix)]
-        if not entries:
-            if path in own.bound:
-                raise DeclarationError(
-                    f"`{path}` follows {own.bound[path]}; change that, or compile with its own value."
-                )
-            if path in self._structural_names:
-                raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
-            known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
-            raise DeclarationError(not_settable(path, self.tree, known))
         declared = self.tree.fields.get(path)
         law = law_of_input(self.tree, path) if isinstance(declared, f.Variable) else ""
         array = numeric(plain(value, self._unit(path), f"`{path}`"), None, f"`{path}`", law)
@@ -127,8 +109,21 @@ class Settable:
                     f"{_again(path)}"
                 )
 
+    def _entries(self, path: str) -> list[str]:
+        """Return the names of the entries of a parameter; raise DeclarationError if it cannot be set."""
+        own, prefix = self.own, path + "["
+        entries = [n for n in (*own.names, *own.structural_zeros) if n == path or n.startswith(prefix)]
+        if entries:
+            return entries
+        if path in own.bound:
+            raise DeclarationError(f"`{path}` follows {own.bound[path]}; change that, or compile with its own value.")
+        if path in self._structural_names:
+            raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
+        known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
+        raise DeclarationError(not_settable(path, self.tree, known))
+
     def _unit(self, path: str) -> Any:
-        """Unit of a parameter, or of an entry of one."""
+        """Return the unit of a parameter, or of one of its entries."""
         name, _, entry = path.removesuffix("]").rpartition("[") if path not in self._fields else (path, "", "")
         unit = self._fields[name].unit
         return unit[int(entry.split(",")[0])] if entry and isinstance(unit, tuple) else unit
@@ -163,13 +158,24 @@ class Settable:
 
     @cached_property
     def _limits(self) -> tuple[Call, np.ndarray, np.ndarray, np.ndarray]:
-        """Function of the limited entries, and for each its owner, least value and whether it must be positive."""
+        """The limited entries as a function of the parameters; for each its owner, minimum, and whether it must be positive."""
         own = self.own
         column = ca.vertcat(*[dense(vec(sx)) for _, sx, _ in own.limits])
         owners = np.repeat(np.arange(len(own.limits)), [sx.numel() for _, sx, _ in own.limits])
         least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in own.limits])[owners]
         positive = np.array([d.positive for _, _, d in own.limits])[owners]
         return Call(ca.Function("limits", [own.symbols], [column])), owners, least, positive
+
+
+def _check_kind(path: str, value: Any) -> None:
+    """Raise DeclarationError for a value that is an expression, a quantity or a dictionary."""
+    if isinstance(value, Expr):
+        what = f"{value!r}, an expression; a compiled model takes numbers"
+        remedy = f"a quantity; give the number alone, in SI units: {{{path!r}: {value!r}}}"
+        raise DeclarationError(f"`{path}` is {remedy if value.sx.is_constant() else what}.")
+    if isinstance(value, Mapping):
+        inner = next(iter(value), "m")
+        raise DeclarationError(f'`{path}` is {value!r}; write the whole path of each value: {{"{path}.{inner}": ...}}.')
 
 
 def _again(path: str) -> str:

@@ -1,4 +1,4 @@
-"""What compiling did, as data and as text."""
+"""The report of a compilation, as data and as text."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ SHOWN = 12
 
 @dataclass(frozen=True)
 class AtStart:
-    """What is known once a start has been found.
+    """Findings at consistent initial values.
 
     Parameters
     ----------
     dropped : tuple of int
-        Residuals that close loops and are redundant by rank.
+        Redundant loop closures, found by rank.
     singular : bool
-        Whether the start is a singular position.
+        Whether the start is a singular configuration.
     independent : tuple of str
-        States from which the others follow by the loops.
+        Independent states: the loops determine the others.
     """
 
     dropped: tuple[int, ...] = ()
@@ -36,16 +36,16 @@ class AtStart:
 
 
 def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: Mapping[str, float]) -> dict[str, Any]:
-    """Return sizes at each stage, states, blocks, what was removed, and seconds of each stage.
+    """Return sizes at each stage, states, blocks, removed equations, and seconds of each stage.
 
     Parameters
     ----------
     reduced : ReducedModel
         The equations.
     local : casadi.Function
-        They and, as its second output, their Jacobian.
+        Function of the equations and, as its second output, their Jacobian.
     found : AtStart
-        What a start tells.
+        Findings at a start.
     seconds : mapping of str to float
         Time of each stage, in s.
     """
@@ -91,7 +91,7 @@ def summary(r: Mapping[str, Any]) -> str:
         f"  algebraic     {_list(r['algebraic'])}",
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
-    lines += [f"  {loop['kind']:14}{_tell(loop)}" for loop in r["loops"]]
+    lines += [f"  {loop['kind']:14}{_loop_text(loop)}" for loop in r["loops"]]
     if r["redundant_in_parts"]:
         lines.append(f"  redundant     {_redundant(r['redundant_in_parts'])}")
     if r["independent_states"]:
@@ -107,7 +107,7 @@ def summary(r: Mapping[str, Any]) -> str:
 
 
 def loops_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
-    """Return what is known of each loop."""
+    """Return parts, closure and redundant constraints of each loop."""
     loops = reduced.flat.loops
     dropped_of: list[list[FlatClosure]] = [[] for _ in loops.cuts]
     for k in sorted(at_start.dropped):
@@ -133,7 +133,7 @@ def loops_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
 
 
 def parts_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
-    """Return the redundant constraints that parts state, and what works on them."""
+    """Return the redundant constraints stated by parts, and their undetermined forces."""
     flat = reduced.flat
     dropped = [flat.loops.closures[k] for k in sorted(at_start.dropped) if flat.loops.closures[k].loop < 0]
     return [
@@ -146,7 +146,7 @@ def parts_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
 
 
 def _flows(unknowns: FlatUnknowns, closures: list[FlatClosure]) -> list[str]:
-    """Names of the flows that work on closures."""
+    """Return the names of the flows that work on closures."""
     if not closures:
         return []
     flows = {s.element_hash() for c in closures for s in ca.symvar(c.dual)}
@@ -155,7 +155,7 @@ def _flows(unknowns: FlatUnknowns, closures: list[FlatClosure]) -> list[str]:
     return [name for name, s in names if s.element_hash() in flows - moving]
 
 
-def _tell(loop: dict[str, Any]) -> str:
+def _loop_text(loop: dict[str, Any]) -> str:
     a, b = loop["closed_by"]
     left = loop["constraints"] - loop["redundant"]
     text = f"through {_list(loop['parts'])}, closed where {a} meets {b} ({loop['where']}): "
@@ -165,12 +165,12 @@ def _tell(loop: dict[str, Any]) -> str:
     if loop["undetermined"]:
         text += f"; undetermined, and set to 0 or so that they do no work: {_list(loop['undetermined'])}"
     if loop["singular_start"]:
-        text += "; the start is a singular position: all constraints are kept, the velocity selects the branch"
+        text += "; the start is a singular configuration: all constraints are kept, the velocity selects the branch"
     return text
 
 
 def _redundant(found: list[dict[str, Any]]) -> str:
-    text = f"{_list([one['constraint'] for one in found])}: dropped, as what they say follows from other constraints"
+    text = f"{_list([one['constraint'] for one in found])}: dropped, as they follow from other constraints"
     flows = list(dict.fromkeys(name for one in found for name in one["undetermined"]))
     return text + (
         f"; undetermined, and shared with the other constraints by least norm: {_list(flows)}" if flows else ""

@@ -1,4 +1,4 @@
-"""What the components of a model require of its parameters, and of its variables at the start."""
+"""Requirements of the components of a model on its parameters, and on its variables at the start."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Requirements:
 
     def __init__(self, tree: Component, parameters: ca.SX) -> None:
         self.tree, self.parameters = tree, parameters
-        self._accepted: np.ndarray | None = None  # what was checked last, and held
+        self._accepted: np.ndarray | None = None  # the last values that passed the check
 
     @cached_property
     def stated(self) -> list[Stated]:
@@ -69,9 +69,9 @@ class Requirements:
         return Call(ca.Function("requirements", [self.parameters], [ca.densify(column)]))
 
     def check(self, values: np.ndarray) -> None:
-        """Raise DeclarationError if parameters break a requirement; warn of those that are only unusual.
+        """Raise DeclarationError if parameters violate a requirement; warn of unusual values.
 
-        Only requirements on what changed since the last values that were accepted are checked.
+        Only requirements whose values changed since the last successful check are checked.
         """
         if not self.of_parameters:
             return
@@ -86,7 +86,7 @@ class Requirements:
 
 
 def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> list[Stated]:
-    """What the components of a bound model yield in a method, with where they are constructed."""
+    """Return the statements that the components of a bound model yield in a method, with their origins."""
     found: list[Stated] = []
     for component in walk(tree):
         if getattr(type(component), method) is not getattr(Component, method):
@@ -98,15 +98,15 @@ def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> l
 
 
 def refuse(stated: list[Stated], values: np.ndarray, kind: type[AcausalError]) -> None:
-    """Raise an error for the first requirement that its entries of `values` break."""
+    """Raise an error for the first requirement that `values` violate."""
     for _, text in _broken(stated, values, np.ones(len(values), dtype=bool)):
         raise kind(text)
 
 
 def _broken(stated: list[Stated], values: np.ndarray, changed: np.ndarray) -> list[tuple[Requirement, str]]:
-    """Requirements that their entries of `values` break, as far as these changed, with what is wrong.
+    """Return the violated requirements among those that changed, each with its message.
 
-    What is wrong with a component is not repeated for a part of it that has the same value.
+    A violation is not repeated for a part of the component that has the same value.
     """
     found, at, seen = list[tuple[Requirement, str]](), 0, list[tuple[str, Any]]()
     for requirement, origin in stated:

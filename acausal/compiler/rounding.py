@@ -1,4 +1,4 @@
-"""How far the values of expressions may be off by rounding."""
+"""Bounds of the round-off error of expressions."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from acausal.symbols import picked, vec
 
 
 def terms(arguments: list[ca.SX], column: ca.SX) -> ca.SX:
-    """Return the size of all that rounding changes in expressions: times the rounding error, a bound of their error.
+    """Return the error scale of expressions: times the unit round-off, it bounds their error.
 
-    Every operation is off by its value times the rounding error, and by what the operations before it are off times its
-    slopes (running error analysis: Higham 2002, section 3.3). So are given values and constants: 90.1 is not a binary
-    number. Sums in which large terms cancel, as at the end of a motion, keep the size of the terms.
+    Running error analysis (Higham 2002, section 3.3): every operation adds its value times the unit round-off to the
+    errors of its operands times its derivatives. Arguments and constants have such an error too: 90.1 is not a binary
+    number. A sum of large terms that cancel keeps the scale of the terms.
 
     Parameters
     ----------
     arguments : list of casadi.SX
-        Columns of symbols, all that the expressions hold.
+        Columns of symbols: all symbols in the expressions.
     column : casadi.SX
         The expressions, dense.
     """
@@ -37,14 +37,14 @@ def terms(arguments: list[ca.SX], column: ca.SX) -> ca.SX:
         operands = [list(own) for own in zip(*(read.arguments[k] for k in nodes), strict=True)]
         own, *slopes = _operation(op, len(operands)).call([value[places] for places in operands])
         value[nodes] = own
-        # What does not matter, as a case that does not hold, need not have a value.
+        # An operand without influence, such as the branch not taken, may be NaN.
         off = [ca.if_else(slope == 0, 0, ca.fabs(slope) * size[i]) for slope, i in zip(slopes, operands, strict=True)]
         size[nodes] = ca.fabs(own) + sum(off, ca.SX(0))
     return ca.densify(picked(size.T, read.results[0]))
 
 
 def _alike(read: Instructions) -> list[tuple[int, list[int]]]:
-    """Operations with their numbers, in groups that follow from those before: CasADi takes as long for one as for many."""
+    """Group equal operations that depend on earlier groups only: a CasADi call costs the same for one as for many."""
     level, groups = list[int](), defaultdict[tuple[int, int], list[int]](list)
     for k, (op, operands) in enumerate(zip(read.op, read.arguments, strict=True)):
         level.append(1 + max((level[i] for i in operands), default=-1))
@@ -55,7 +55,7 @@ def _alike(read: Instructions) -> list[tuple[int, list[int]]]:
 
 @cache
 def _operation(op: int, operands: int) -> ca.Function:
-    """Function of operands: the result of an operation, and its derivative with respect to each."""
+    """Return an operation as a function of its operands: its result, and its derivative by each operand."""
     given = [ca.SX.sym("operand") for _ in range(operands)]
     result = ca.SX.unary(op, *given) if operands == 1 else ca.SX.binary(op, *given)
     return ca.Function("operation", given, [result, *(ca.densify(ca.jacobian(result, g)) for g in given)])

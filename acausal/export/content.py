@@ -31,7 +31,7 @@ def watched(compiled: CompiledModel, given: Given) -> list[int]:
     """Return the guards that are watched: all but those whose instants functions of parameters and constants tell."""
     guards, symbols = compiled.guards, scalars(given.symbols)
     inputs = {symbols[k].element_hash() for k, _ in given.inputs}
-    seen = {*guards.watched, *guards.bent}
+    seen = {*guards.watched, *guards.nonlinear}
     return [
         k
         for k in range(len(guards.guards))
@@ -162,5 +162,5 @@ class Content:
     @cached_property
     def _instants(self) -> ca.SX:
         guards, r = self.compiled.guards, self.compiled.reduced
-        found = ca.vertcat(guards.breaks.function(r.p), guards.planned.function(r.p, r.constants))
+        found = ca.vertcat(guards.breaks.function(r.p), guards.scheduled.function(r.p, r.constants))
         return found if found.numel() else ca.SX(0, 1)

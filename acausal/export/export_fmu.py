@@ -30,8 +30,8 @@ from acausal.language.docstring import first_line
 from acausal.language.functions import time
 from acausal.locks import exclusive
 from acausal.policy import POLICY
-from acausal.simulation.asked import planned
-from acausal.simulation.settings import settled
+from acausal.simulation.model_settings import effective_settings
+from acausal.simulation.settings_checks import checked_task
 from acausal.solve.problem import Problem
 from acausal.solve.run import sizes_of_run
 from acausal.symbols import picked, scalars, stacked
@@ -77,10 +77,10 @@ def export_fmu(
     """
     check_fmu(path, fmi_version, platforms)
     compiled, p = _freed(model, parameters, free) if free else ready(model, parameters)
-    own = settled(compiled, None, {"stop_time": stop_time})["stop_time"]
+    own = effective_settings(compiled, None, {"stop_time": stop_time})["stop_time"]
     asked = {"stop_time": 1.0 if own is None else own, "tolerance": tolerance, "initial": initial, "accuracy": None}
     others = dict.fromkeys(("intervals", "method", "constraints", "max_order"))
-    task, _ = planned(compiled, None, asked | others)
+    task, _ = checked_task(compiled, None, asked | others)
     span, tolerance = float(task.stop_time), float(task.tolerance)
     problem = Problem(compiled, p, POLICY.loops.feedback / span)
     breaks = [b for b in compiled.guards.breaks(p)[0].tolist() if 0 < b < span]

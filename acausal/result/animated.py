@@ -1,4 +1,4 @@
-"""Moving pictures of results: what of a result they show, and the files that they are written to."""
+"""Animations of results: options, checks, and files (HTML page, GIF, PNG)."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from acausal.result.lookup import Key, Tree, find
 from acausal.result.plots import canvas
 
 PAGES = (".html", ".htm")
-EXAGGERATED = 1000  # times a deformation, at most
+EXAGGERATED = 1000  # largest scale of deformations
 ENDINGS = (*PAGES, ".gif", ".png")
 
 
-class Moving(Protocol):
-    """What is needed of a result."""
+class Animatable(Protocol):
+    """The attributes of a result that animations use."""
 
     time: np.ndarray
     tree: Any
@@ -42,8 +42,8 @@ class Moving(Protocol):
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What a user asks for: the arguments of `Result.animate`."""
+class AnimationOptions:
+    """Options of an animation: the arguments of `Result.animate`."""
 
     frames: int = FRAMES
     plots: Sequence[Key] = ()
@@ -52,7 +52,7 @@ class Asked:
     deformation: float = 1.0
 
     def check(self) -> None:
-        """Refuse what no picture can be made of."""
+        """Raise DeclarationError for invalid options."""
         if isinstance(self.frames, bool) or not isinstance(self.frames, int | np.integer) or self.frames < 2:
             raise DeclarationError(f"frames is a whole number, 2 or more, not {code(self.frames)}.")
         for name, example in (("plots", "crank.phi"), ("values", "bending moment")):
@@ -66,63 +66,62 @@ class Asked:
             raise DeclarationError(f"title is a text, not {code(self.title)}.")
 
 
-DEFAULT = Asked()
+DEFAULT = AnimationOptions()
 
 
-def write(results: Mapping[str, Moving], path: str | Path, asked: Asked) -> None:
-    """Write a moving picture of results by their names; errors are those of `Result.animate`."""
+def write(results: Mapping[str, Animatable], path: str | Path, options: AnimationOptions) -> None:
+    """Write an animation of results by name; raises the errors of `Result.animate`."""
     check_animation(path)
-    asked.check()
-    title = asked.title
-    found = scenes({name: run_of(result, asked) for name, result in results.items()}, asked.values)
+    options.check()
+    title = options.title
+    found = scenes({name: run_of(result, options) for name, result in results.items()}, options.values)
     if _ending(path) in PAGES:
         with whole(path) as file:
-            file.write(html(written(found, asked.values, title, asked.deformation)))
+            file.write(html(written(found, options.values, title, options.deformation)))
         return
     from acausal.result.films import film, still
 
-    data = (film if _ending(path) == ".gif" else still)(found, title, asked.values, asked.deformation)
+    data = (film if _ending(path) == ".gif" else still)(found, title, options.values, options.deformation)
     with whole(path, "wb") as file:
         file.write(data)
 
 
 def check_animation(path: str | Path) -> None:
-    """Check whether a moving picture can be written: known ending, writable place.
+    """Check that an animation can be written: known suffix, writable file.
 
     Raises
     ------
     ExportError
-        With the reason why not.
+        If it cannot, with the reason.
     """
     if isinstance(path, str | Path) and str(path).strip() and _ending(path) not in ENDINGS:
         raise ExportError(
-            f"cannot write {shown_name(path)}: the name of a moving picture ends in .html, a page that any browser plays, "
-            "or in .gif or .png."
+            f"cannot write {shown_name(path)}: the name of an animation ends in .html (a page for any browser), .gif or .png."
         )
     check_writable(path)
     if _ending(path) not in PAGES:
-        canvas(1, 1, "tight")  # refuses where matplotlib cannot be loaded
+        canvas(1, 1, "tight")  # raises ExportError if matplotlib cannot be loaded
 
 
 def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
-    """Refuse a model in which there is nothing to be seen, or a value along beams that it has not.
+    """Check that a model has visible parts, and beams with the given values.
 
     Raises
     ------
     DeclarationError
-        Which names what there is.
+        If not; the message lists the available values.
     """
     if isinstance(tree, Component):
         shown([tree], values)
 
 
-def in_notebook(result: Moving) -> str | None:
-    """Return the page of a result as a frame of a notebook, which runs its scripts and nothing else.
+def in_notebook(result: Animatable) -> str | None:
+    """Return the animation as a sandboxed frame for a notebook; None if nothing is visible, so that it shows text.
 
     Parameters
     ----------
     result : Result
-        Where there is nothing to be seen, None is returned: the notebook shows its text instead.
+        The result.
     """
     try:
         page = html(written(scenes({result.title: run_of(result)})))
@@ -134,31 +133,31 @@ def in_notebook(result: Moving) -> str | None:
     )
 
 
-def run_of(result: Moving, asked: Asked = DEFAULT) -> Run:
-    """Return what is shown of a result: about so many frames of it at most, and its outputs or other scalars.
+def run_of(result: Animatable, options: AnimationOptions = DEFAULT) -> Run:
+    """Return the data of a result for an animation: thinned times, an evaluator, and plots.
 
     Raises
     ------
     DeclarationError
-        If the result has no time, or no model any more.
+        If the result has no times or no model.
     """
     tree = result.tree
     if not isinstance(tree, Component):
         raise DeclarationError(
-            f"{result!r} was loaded or made without a model, which says what the parts look like: animate it where it was "
-            "simulated, or simulate again."
+            f"{result!r} has no model, which defines the shapes of the parts: it was loaded, or made from arrays. Animate it "
+            "where it was simulated, or simulate again."
         )
     if not result.time.size:
-        raise DeclarationError(f"{result!r} is empty: there is no time at which something could be seen.")
-    places = thinned(result.time, asked.frames)
-    quantities = [find(tree, key) for key in asked.plots or result.outputs]
+        raise DeclarationError(f"{result!r} is empty: it has no times to show.")
+    places = thinned(result.time, options.frames)
+    quantities = [find(tree, key) for key in options.plots or result.outputs]
     plots = [Plot(name, unit, q[index].column) for q in quantities for index, name, unit in q.entries]
     title, stopped = result.title or type(tree).__name__, result.stats.get("stopped")
     return Run(tree, result.time[places], _at(result, places), plots, title, stopped)
 
 
-def _at(result: Moving, places: np.ndarray) -> Any:
-    """Return a function that evaluates expressions at some of the times only, where that is possible."""
+def _at(result: Animatable, places: np.ndarray) -> Any:
+    """Return an evaluator at the given times only, to save work if the result supports it."""
     evaluate = result._evaluate
     if len(places) == result.time.size:
         return evaluate

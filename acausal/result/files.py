@@ -1,4 +1,4 @@
-"""Files: written whole or not at all, read as text or as a document."""
+"""Files: atomic writing, reading of text and JSON, and messages about what fails."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from typing import IO, Any, NoReturn
 
 from acausal.errors import AcausalError, DeclarationError, ExportError
 
-SHOWN = 60  # characters of a long name
-DIGITS = 300  # of a number
+SHOWN = 60  # characters shown of a long file name, from its beginning
+DIGITS = 300  # longest integer in a JSON document: longer ones exceed the range of a double
 
 
 def check_writable(path: str | Path) -> None:
-    """Check before any work is done whether a file can be written.
+    """Check that a file can be written, before any work is done.
 
     Raises
     ------
     ExportError
-        With the reason why not.
+        If it cannot, with the reason.
     """
     with _reasons("write", path):
         target = _target(path)
@@ -36,7 +36,7 @@ def check_writable(path: str | Path) -> None:
 
 @contextmanager
 def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
-    """Open a file that replaces the old one of its name when the block succeeds, and leaves it otherwise.
+    """Open a file for writing that replaces an old one only if the block succeeds.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
     ExportError
         If it cannot be written.
     """
-    # A name of a file that is no UTF-8 may stand in what is written.
+    # The text may contain a file name that is not valid UTF-8.
     text: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": "", "errors": "backslashreplace"}
     with _reasons("write", path):
         target = _target(path)
@@ -71,21 +71,21 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
 
 
 def read_text(path: str | Path, what: str = "", encoding: str = "utf-8-sig") -> str:
-    """Return what is in a text file.
+    """Return the content of a text file.
 
     Parameters
     ----------
     path : str or Path
         Name of the file.
     what : str
-        What it is, for messages.
+        What the file is, for messages.
     encoding : str
-        Of the text.
+        Encoding of the text.
 
     Raises
     ------
     DeclarationError
-        With the reason why it cannot be read.
+        If it cannot be read, with the reason.
     """
     verb = f"read {what}".rstrip()
     with _reasons(verb, path):
@@ -101,17 +101,17 @@ def read_text(path: str | Path, what: str = "", encoding: str = "utf-8-sig") -> 
 
 
 def document(text: str) -> Any:
-    """Return what a text in JSON says.
+    """Parse a JSON document strictly.
 
     Parameters
     ----------
     text : str
-        In JSON.
+        The document.
 
     Raises
     ------
     ValueError
-        If it is none, or says what no file of ours does: a name twice, NaN, an infinity.
+        If it is not valid JSON, repeats a name, or contains NaN or an infinity.
     """
     try:
         return json.loads(text, object_pairs_hook=_once, parse_constant=_no_number, parse_int=_integer)
@@ -126,7 +126,7 @@ def document(text: str) -> Any:
 
 
 def same_file(one: str | Path, other: str | Path) -> bool:
-    """Return whether two names lead to the same file, which need not exist; what is no file is another each time."""
+    """Return whether two names refer to the same file, which need not exist; devices are never the same file."""
     with suppress(OSError, RuntimeError, ValueError):
         first, second = (Path(path).expanduser().resolve() for path in (one, other))
         return first == second and not _is_device(first)
@@ -134,7 +134,7 @@ def same_file(one: str | Path, other: str | Path) -> bool:
 
 
 def shown_name(path: object) -> str:
-    """Return the name of a file for a message, shortened where it is long."""
+    """Return the name of a file for a message, shortened if it is long."""
     text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(path))
     return text if len(text) <= 2 * SHOWN else f"{text[:SHOWN]}...{text[-SHOWN // 2 :]}"
 
@@ -148,7 +148,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _no_number(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number in JSON")
+    raise ValueError(f"{text} is not a number in JSON")
 
 
 def _integer(text: str) -> int:
@@ -158,7 +158,7 @@ def _integer(text: str) -> int:
 
 
 def _named(verb: str, path: str | Path) -> Path:
-    """Return the file that a name means, links followed, or refuse what names none."""
+    """Return the file of a name, with links resolved; refuse invalid names."""
     if not isinstance(path, str | os.PathLike):
         _refuse(verb, repr(path), "a file is given by its name, such as 'out.csv'")
     if not str(path).strip():
@@ -170,15 +170,15 @@ def _named(verb: str, path: str | Path) -> Path:
         _refuse(verb, path, "the current directory no longer exists; change to another one")
     except RuntimeError:
         home = str(path).startswith("~")
-        _refuse(verb, path, "there is no such user, or no home directory" if home else "its links lead in a circle")
+        _refuse(verb, path, "there is no such user, or no home directory" if home else "its links form a loop")
     except ValueError:
         _refuse(verb, path, "the name contains the character of code 0")
-    # What /dev/stdout leads to has no name where it is a pipe.
+    # If /dev/stdout is a pipe, it resolves to a name that does not exist.
     return plain if plain.exists() and not target.exists() else target
 
 
 def _target(path: str | Path) -> Path:
-    """Return the intended file, links followed, or raise ExportError where none is possible."""
+    """Return the file to write, with links resolved; raise ExportError if it cannot be written."""
     target = _named("write", path)
     if not target.is_dir() and os.path.basename(path) in ("", ".", ".."):  # a Path forgets the slash at the end
         _refuse("write", path, "that is the name of a directory; append a file name")
@@ -204,11 +204,11 @@ def _beside(target: Path) -> Path:
 
 @contextmanager
 def _reasons(verb: str, path: str | Path) -> Iterator[None]:
-    """Tell why a file cannot be written or read where the system refuses."""
+    """Turn an OSError into the message why a file cannot be written or read."""
     try:
         yield
     except BrokenPipeError:
-        raise  # whoever reads has seen enough
+        raise  # the reader has closed the pipe; that is not an error of the file
     except OSError as error:
         _refuse(verb, path, str(error.strerror or error))
 

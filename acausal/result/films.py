@@ -1,4 +1,4 @@
-"""Films and stills of scenes, for documents: drawn by matplotlib, written by Pillow."""
+"""GIF films and PNG stills of scenes, for documents: drawn by matplotlib, written by Pillow."""
 
 from __future__ import annotations
 
@@ -13,33 +13,33 @@ from acausal.animation.drawing import Drawing, Polygon, rgb
 from acausal.animation.scene import ALL, Scene, corners
 from acausal.result.plots import DPI, canvas
 
-WIDTH, LEAST, MOST = 640, 240, 560  # pixels
-MARGIN = 0.06  # of the width
-RATE = 20  # frames of a film in a second
-SHORTEST, LONGEST, USUAL = 2.0, 10.0, 6.0  # seconds of a film
-MOMENTS = 5  # of a still
-FAINT = 0.75  # of the way to white: earlier moments, and all runs but the first
-NEARLY_WHITE = 245
-COLOURS, SAMPLES = 128, 8  # of a film, and frames that tell which
+WIDTH, LEAST, MOST = 640, 240, 560  # width, and limits of the height, in pixels
+MARGIN = 0.06  # fraction of the width
+RATE = 20  # frames per second of a film
+SHORTEST, LONGEST, USUAL = 2.0, 10.0, 6.0  # seconds of a film that plays in real time; seconds otherwise
+MOMENTS = 5  # instants in a still
+FAINT = 0.75  # fraction of white mixed into the earliest instant, and into all runs but the first
+NEARLY_WHITE = 245  # of 255: brighter colours of the palette become white
+COLOURS, SAMPLES = 128, 8  # size of the palette, and number of frames from which it is computed
 OTHERS = ("#2f6fdf", "#d1495b", "#2a9d78", "#a05fc9")
 
 
 def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), deformation: float = 1.0) -> bytes:
-    """Return the motion as GIF, as fast as it is or at a speed that is told.
+    """Return the motion as GIF, in real time or at a speed that the picture states.
 
     Parameters
     ----------
     scenes : mapping of str to Scene
-        With sizes. The first is drawn in its colours, others faintly over it.
+        Scenes with sizes. The first is drawn in its own colours, the others faintly.
     title : str
-        Written above.
+        Title above the picture.
     values : sequence of str
         The first one colours beams, unless it is "all".
     deformation : float
         Scale of deformations.
     """
     picture = _Picture(scenes, title, values, deformation)
-    from PIL import Image  # matplotlib, which is loaded now, has it
+    from PIL import Image  # a dependency of matplotlib, which is loaded now
 
     begin, end = picture.span
     speed = _speed(end - begin)
@@ -47,10 +47,10 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), de
     digits = max(0, 2 - int(np.floor(np.log10(end - begin)))) if end > begin else 2
     frames = []
     for t in np.linspace(begin, end, count):
-        told = f"t = {t:.{digits}f} s"
-        frames.append(picture.pixels([(float(t), 0.0)], told + (f"   (speed x {speed:g})" if speed != 1 else "")))
+        caption = f"t = {t:.{digits}f} s"
+        frames.append(picture.pixels([(float(t), 0.0)], caption + (f"   (speed x {speed:g})" if speed != 1 else "")))
     palette = _joined(frames[:: max(1, len(frames) // SAMPLES)]).quantize(COLOURS)
-    # The mean of what is nearly white would be a box on a white page.
+    # A background that is not quite white would show as a box on a white page.
     palette.putpalette([255 if c > NEARLY_WHITE else c for c in palette.getpalette() or ()])
     images = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     file = io.BytesIO()
@@ -59,26 +59,28 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), de
 
 
 def still(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), deformation: float = 1.0) -> bytes:
-    """Return some moments in one picture as PNG, the earlier ones the fainter; arguments as of `film`."""
+    """Return several instants in one PNG, earlier ones fainter; arguments as in `film`."""
     picture = _Picture(scenes, title, values, deformation)
     begin, end = picture.span
     times = np.linspace(begin, end, MOMENTS) if end > begin else [end]
     faint = np.linspace(FAINT, 0, len(times))
-    told = f"t = {begin:.4g} to {end:.4g} s" if end > begin else f"t = {end:.4g} s"
+    caption = f"t = {begin:.4g} to {end:.4g} s" if end > begin else f"t = {end:.4g} s"
     file = io.BytesIO()
-    picture.pixels(list(zip(map(float, times), map(float, faint), strict=True)), told).save(file, "PNG", optimize=True)
+    picture.pixels(list(zip(map(float, times), map(float, faint), strict=True)), caption).save(
+        file, "PNG", optimize=True
+    )
     return file.getvalue()
 
 
 def _joined(frames: Sequence[Any]) -> Any:
-    """Return pictures one below the other."""
+    """Stack pictures vertically."""
     from PIL import Image
 
     return Image.fromarray(np.concatenate([np.asarray(frame) for frame in frames]))
 
 
 def _speed(seconds: float) -> float:
-    """Return how many seconds of motion pass in one of the film: 1, or 1, 2 or 5 times a power of ten."""
+    """Return the playback speed: 1, or 1, 2 or 5 times a power of ten."""
     if SHORTEST <= seconds <= LONGEST or seconds <= 0:
         return 1.0
     wanted = seconds / USUAL
@@ -87,7 +89,7 @@ def _speed(seconds: float) -> float:
 
 
 class _Picture:
-    """Draws moments of scenes on one canvas."""
+    """Draws instants of scenes on one canvas."""
 
     def __init__(self, scenes: Mapping[str, Scene], title: str, values: Sequence[str], deformation: float) -> None:
         self.scenes = list(scenes.values())
@@ -126,7 +128,7 @@ class _Picture:
             self.axes.text(0.02, 0.9 - 0.05 * k, name, color=OTHERS[k % len(OTHERS)], fontsize=6, **place)
 
     def _colour_bar(self, by: str) -> Any:
-        """Show which value has which colour; return the function that tells."""
+        """Draw the colour bar; return the function from values to colours, None without values."""
         found = [v for s in self.scenes for one in s.seen for v in getattr(one.shape, "values", ()) if v.name == by]
         if not found:
             return None
@@ -141,8 +143,8 @@ class _Picture:
         bar.ax.tick_params(labelsize=6)
         return lambda numbers: mapped.to_rgba(numbers)[:, :3]
 
-    def pixels(self, moments: list[tuple[float, float]], told: str) -> Any:
-        """Return a picture of some times, each so far on the way to white."""
+    def pixels(self, moments: list[tuple[float, float]], caption: str) -> Any:
+        """Return a picture of several instants, each a time and its fraction of white."""
         from PIL import Image
 
         polygons: list[tuple[Polygon, np.ndarray]] = [(p, p.colour) for p in self.drawings[0].grid()]
@@ -157,7 +159,7 @@ class _Picture:
         colours = [tuple(colour.tolist()) for _, colour in polygons]
         self.shown.set_facecolor(colours)
         self.shown.set_edgecolor(colours)
-        self.time.set_text(told)
+        self.time.set_text(caption)
         self.figure.canvas.draw()
         canvas_: Any = self.figure.canvas
         return Image.fromarray(np.asarray(canvas_.buffer_rgba())[:, :, :3].copy())

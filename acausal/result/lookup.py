@@ -1,4 +1,4 @@
-"""From a key (path, attribute or expression) to the symbols of the bound model."""
+"""Lookup of quantities: from a key (path, attribute or expression) to the symbols of the bound model."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from acausal.language.component import Component, Path
 from acausal.language.expression import Equation, Expr
 from acausal.language.functions import time
 from acausal.language.value_checks import shown, shown_or_kind
-from acausal.result.unknown import unknown
+from acausal.result.unknown_path import unknown_path
 from acausal.symbols import vec
 
 Key = str | Path | Expr
@@ -29,18 +29,18 @@ _INDEX = re.compile(r"\[\(?\s*(-?\d{1,9}(?:\s*,\s*-?\d{1,9})*)\s*,?\s*\)?\]")
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """What a key means.
+    """A quantity of a result.
 
     Parameters
     ----------
     name : str
-        The key in the user's words.
+        Name as the user writes it.
     column : casadi.SX, shape (n, 1), or array of int, shape (n,)
-        The entries in column-major order: expressions, or places in a table of values.
+        The entries in column-major order: expressions, or columns of a snapshot.
     shape : tuple of int
-        Shape as numpy gives it.
+        Shape as in numpy.
     units : tuple of str
-        Unit of each entry as declared, "" where it is not known.
+        Declared unit of each entry, "" if unknown.
     declared : bool
         Whether the name alone determines the expression.
     """
@@ -65,7 +65,7 @@ class Quantity:
 
     @property
     def entries(self) -> list[tuple[tuple[int, ...], str, str]]:
-        """Index, name and unit of each entry, the last index running fastest."""
+        """Index, name and unit of each entry, the last index varying fastest."""
         units = np.array(self.units, dtype=object).reshape(self.shape, order="F")
         return [
             (i, self.name + (f"[{','.join(map(str, i))}]" if i else ""), str(units[i])) for i in np.ndindex(self.shape)
@@ -73,7 +73,7 @@ class Quantity:
 
 
 class Catalogue(Protocol):
-    """What can be read where there is no bound model any more."""
+    """The readable quantities of a result without a bound model."""
 
     @property
     def names(self) -> list[str]:
@@ -81,7 +81,7 @@ class Catalogue(Protocol):
         ...
 
     def find(self, key: Key) -> Quantity:
-        """Return the quantity that a key means."""
+        """Return the quantity of a key."""
         ...
 
 
@@ -106,9 +106,9 @@ def match(tree: Tree, patterns: Iterable[str]) -> list[str]:
     Parameters
     ----------
     tree : Component or Catalogue
-        The bound model, or what a result that was loaded knows of it.
+        The bound model, or the catalogue of a loaded result.
     patterns : iterable of str
-        Paths in which `*` stands for any text and `?` for any character; brackets mean themselves.
+        Paths in which `*` stands for any text and `?` for any character; brackets are literal.
 
     Raises
     ------
@@ -118,8 +118,8 @@ def match(tree: Tree, patterns: Iterable[str]) -> list[str]:
     known, found = names(tree), {}
     for pattern in patterns:
         if not isinstance(pattern, str):
-            raise DeclarationError(no_path(pattern))
-        # Brackets in names are indices: fnmatch's sets of characters would only be in the way.
+            raise DeclarationError(invalid_key(pattern))
+        # Brackets are indices here, not fnmatch's character sets.
         matched = [name for name in known if fnmatchcase(name, pattern.replace("[", "[[]"))]
         if not matched and ("*" in pattern or "?" in pattern):
             raise DeclarationError(f"no variable of the model matches `{pattern}`; * stands for any text.")
@@ -128,7 +128,7 @@ def match(tree: Tree, patterns: Iterable[str]) -> list[str]:
 
 
 def find(tree: Tree, key: Key) -> Quantity:
-    """Return the quantity that a key means.
+    """Return the quantity of a key.
 
     Raises
     ------
@@ -140,11 +140,11 @@ def find(tree: Tree, key: Key) -> Quantity:
     if isinstance(key, Expr):
         return _of_expression(tree, key)
     if not isinstance(key, str | Path):
-        raise DeclarationError(no_path(key))
+        raise DeclarationError(invalid_key(key))
     try:
         return _walk(tree, str(key))
     except LookupError:
-        raise DeclarationError(unknown(str(key), names(tree), tree)) from None
+        raise DeclarationError(unknown_path(str(key), names(tree), tree)) from None
 
 
 def _of_expression(tree: Component, expr: Expr) -> Quantity:
@@ -163,7 +163,7 @@ def _symbols(column: ca.SX) -> list[int]:
 
 
 def _walk(tree: Component, path: str) -> Quantity:
-    """Follow a path; LookupError if it leads nowhere."""
+    """Follow a path; raise LookupError if it does not exist."""
     if path == "time" and path not in tree.fields:
         return Quantity("time", time.sx, (), ("s",))
     owner: Any = tree
@@ -197,7 +197,7 @@ def parse(path: str) -> list[tuple[str, list[tuple[int, ...]]]]:
 
 
 def choose(value: Any, name: str, indices: list[tuple[int, ...]]) -> Any:
-    """Return the part that indices choose from a list of parts."""
+    """Return the part at the given indices of a list of parts."""
     for index in indices:
         if not isinstance(value, list):
             raise LookupError
@@ -218,7 +218,7 @@ def _member(owner: Any, name: str) -> Any:
 
 
 def quantity_of(owner: Component, name: str, declared: f.Field, expr: Expr) -> Quantity:
-    """Return what a member of a bound component means.
+    """Return a member of a bound component as a quantity.
 
     Parameters
     ----------
@@ -227,7 +227,7 @@ def quantity_of(owner: Component, name: str, declared: f.Field, expr: Expr) -> Q
     name : str
         The member.
     declared : Field
-        How it is declared.
+        Its declaration.
     expr : Expr
         Its value.
     """
@@ -237,7 +237,7 @@ def quantity_of(owner: Component, name: str, declared: f.Field, expr: Expr) -> Q
 
 
 def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
-    """Return the unit of each entry; a unit for each row holds in all columns."""
+    """Return the unit of each entry; a unit given per row applies to all columns."""
     rows, columns = expr.sx.shape
     if unit is None:
         return ("",) * (rows * columns)
@@ -246,24 +246,24 @@ def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
 
 
 def check_columns(tree: Tree, keys: Iterable[Key]) -> None:
-    """Refuse a table in which a quantity would have the name of the column of time.
+    """Raise DeclarationError if a column of a table would have the name of the time column.
 
     Parameters
     ----------
-    tree : Component or Kept
-        As of a result.
+    tree : Component or Snapshot
+        As in a result.
     keys : iterable of str, Path or Expr
         The other columns.
     """
     if has_time(tree) and any(find(tree, key).name.partition("[")[0] == "time" for key in keys):
         raise DeclarationError(
-            "a table cannot hold `time`: its first column has that name. Give the variable of the model another one, "
-            "for instance `clock`."
+            "a table cannot hold the variable `time`: its first column has that name. Rename the variable of the model, for "
+            "instance to `clock`."
         )
 
 
 def has_time(tree: Any) -> bool:
-    """Whether the model has something of its own by the name of time."""
+    """Return whether the model itself declares a quantity named `time`."""
     return "time" in (tree.fields if isinstance(tree, Component) else tree.quantities)
 
 
@@ -284,10 +284,10 @@ def _example(parts: list[Component]) -> str:
     return inside[0].removeprefix(f"{parts[0]._path}.") if inside else "..."
 
 
-def no_path(key: object) -> str:
-    """Return the message for what is no path."""
+def invalid_key(key: object) -> str:
+    """Return the message for a key that is not a path."""
     text = shown(key)
     for kind, word in ((f.Field, "a field of the class"), (Equation, "an equation")):
         text = word if isinstance(key, kind) else text
-    mend = "; give several one by one." if isinstance(key, list | tuple | set) else "."
-    return f"a result is read by a path such as 'beam.frame_b.r_0', not by {text}{mend}"
+    remedy = "; give several one by one." if isinstance(key, list | tuple | set) else "."
+    return f"a result is read by a path such as 'beam.frame_b.r_0', not by {text}{remedy}"

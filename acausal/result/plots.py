@@ -1,4 +1,4 @@
-"""Pictures of results; matplotlib's objects only, so that neither a display nor global state is touched."""
+"""Plots of results, drawn with matplotlib's objects alone: they need no display and change no global state."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 DPI = 150
-LABEL = 36
-FLAT = 0.03  # of the largest range in an axes
-LEGEND_ROWS = 12
-LEGEND_LINES = 36
+LABEL = 36  # characters of the longest label of an axis; longer ones are left to the legend
+FLAT = 0.03  # fraction of the largest range in an axes, below which a curve looks flat and gets an axes of its own
+LEGEND_ROWS = 12  # lines in a column of the legend
+LEGEND_LINES = 36  # lines in the legend
 
 
 @dataclass(frozen=True)
@@ -35,14 +35,14 @@ class Series:
 
 
 def draw(time: np.ndarray, series: Sequence[Series], title: str = "") -> Figure:
-    """Draw scalars over time, one axes for each unit; what would look flat beside the others has its own.
+    """Plot scalars over time, one axes per unit; curves that would look flat beside the others get their own.
 
     Parameters
     ----------
     time : array, shape (times,)
         In s.
     series : sequence of Series
-        What to draw.
+        The curves.
     title : str
         Title of the figure.
 
@@ -66,7 +66,7 @@ def draw(time: np.ndarray, series: Sequence[Series], title: str = "") -> Figure:
 
 
 def _alike(series: Sequence[Series], unit: str) -> list[list[Series]]:
-    """Split the series of a unit where the range of one is too small to be seen beside the others."""
+    """Split the series of a unit into those of large and of small range."""
     own = [s for s in series if s.unit == unit]
     spans = [float(np.ptp(s.values[np.isfinite(s.values)])) if np.any(np.isfinite(s.values)) else 0.0 for s in own]
     most = max(spans)
@@ -76,14 +76,14 @@ def _alike(series: Sequence[Series], unit: str) -> list[list[Series]]:
 
 
 def save(figure: Figure, path: str | Path) -> None:
-    """Write a figure in the format that the name's ending tells."""
+    """Write a figure in the format of the file's suffix."""
     check_picture(path)
     with whole(path, "wb") as file:
         figure.savefig(file, format=_ending(path), dpi=DPI)
 
 
-def opened(figure: Figure, path: str | Path | None) -> None:
-    """Open a figure in the system's viewer, which was saved already if it has a path."""
+def open_figure(figure: Figure, path: str | Path | None) -> None:
+    """Open a figure in the system's viewer, saving it first if it has no path yet."""
     import tempfile
     import webbrowser
 
@@ -94,12 +94,12 @@ def opened(figure: Figure, path: str | Path | None) -> None:
 
 
 def check_picture(path: str | Path) -> None:
-    """Check whether a picture can be written: known ending, writable place.
+    """Check that a picture can be written: known suffix, writable file.
 
     Raises
     ------
     ExportError
-        With the reason why not.
+        If it cannot, with the reason.
     """
     if isinstance(path, str | Path) and str(path).strip() and _ending(path) not in _formats():
         raise ExportError(f"cannot write {shown_name(path)}: a picture's name ends in .png, .svg or .pdf.")
@@ -114,7 +114,7 @@ def canvas(width: float, height: float, layout: Literal["tight", "constrained"])
     width, height : float
         In inches.
     layout : str
-        How matplotlib places the axes.
+        Layout engine of matplotlib.
     """
     _formats()
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -126,13 +126,13 @@ def canvas(width: float, height: float, layout: Literal["tight", "constrained"])
 
 
 def _formats() -> dict[str, str]:
-    """Return the endings of pictures; matplotlib refuses to be imported where its environment is wrong."""
+    """Return matplotlib's file types; raise ExportError if its import fails, as with an invalid MPLBACKEND."""
     try:
         from matplotlib.backend_bases import FigureCanvasBase
     except (ImportError, OSError, ValueError) as error:
         name = os.environ.get("MPLBACKEND")
-        mend = f"; MPLBACKEND is {name!r}: unset it, pictures need no screen" if name and name in str(error) else ""
-        raise ExportError(f"matplotlib cannot be loaded, so there are no pictures{mend or f': {error}'}.") from None
+        remedy = f"; MPLBACKEND is {name!r}: unset it, pictures need no screen" if name and name in str(error) else ""
+        raise ExportError(f"matplotlib cannot be loaded, so there are no pictures{remedy or f': {error}'}.") from None
     return FigureCanvasBase.get_supported_filetypes()
 
 
@@ -144,7 +144,7 @@ def _fill(axes: Axes, time: np.ndarray, series: Sequence[Series], unit: str) -> 
     from cycler import cycler
     from matplotlib import rcParamsDefault
 
-    # Lines stay apart beyond the ten colours.
+    # Line styles distinguish curves beyond the ten colours.
     axes.set_prop_cycle(cycler(linestyle=["-", "--", ":", "-."]) * rcParamsDefault["axes.prop_cycle"])
     for s in series:
         axes.plot(time, s.values, label=s.name, linewidth=1.4, marker="." if len(time) == 1 else None)

@@ -1,4 +1,4 @@
-"""Result: what a simulation found, read by the names of the model."""
+"""Result: the trajectories of a simulation, read by the names of the model."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from acausal.errors import DeclarationError, caution
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import exclusive
-from acausal.result.kept import Kept, keep
+from acausal.result.evaluation import read
+from acausal.result.invalid_values import invalid_values
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
-from acausal.result.no_numbers import no_numbers
-from acausal.result.plots import Series, draw, opened, save
-from acausal.result.reading import read
+from acausal.result.plots import Series, draw, open_figure, save
+from acausal.result.snapshot import Snapshot, take_snapshot
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
 
@@ -30,24 +30,24 @@ if TYPE_CHECKING:
 class Result:
     """Every variable and parameter of a run over time.
 
-    It can be pickled; it is then read without the model's classes, by name alone.
+    A pickled result does not need the model's classes: it is read by name alone.
 
     Parameters
     ----------
     time : array, shape (times,)
         In s, read-only as all arrays of a result.
     evaluate : callable
-        From a column of n expressions in the model's symbols to an array of shape (times, n).
-    tree : Component or Kept
-        The bound model, whose attributes hold the symbols; or what was kept of it.
+        Function from a column of n expressions in the model's symbols to an array of shape (times, n).
+    tree : Component or Snapshot
+        The bound model, whose attributes hold the symbols; or a snapshot.
     outputs : tuple of str
         Names of the model's outputs, the columns of its table.
     stats : mapping
         Sizes, counts and seconds of the run.
     title : str
         Title of plots.
-    more : Kept, optional
-        What can be read beside the quantities of the model.
+    more : Snapshot, optional
+        Further quantities that are not of the model.
 
     Examples
     --------
@@ -64,10 +64,10 @@ class Result:
         outputs: tuple[str, ...],
         stats: Mapping[str, Any],
         title: str = "",
-        more: Kept | None = None,
+        more: Snapshot | None = None,
     ) -> None:
         self.time = np.array(time, dtype=float)
-        self.time.setflags(write=False)  # as all arrays of a result: they are kept
+        self.time.setflags(write=False)  # all arrays of a result are cached, so none may be changed
         self.tree = tree
         self.outputs = tuple(outputs)
         self._stats = stats if isinstance(stats, Statistics) else Statistics(**stats)
@@ -75,7 +75,7 @@ class Result:
         self._evaluate = evaluate
         self._more = more
         self._arrays = {"time": self.time} if not has_time(tree) else {}
-        self._told: set[str] = set()
+        self._warned: set[str] = set()
 
     @property
     def stats(self) -> Statistics:
@@ -94,21 +94,21 @@ class Result:
 
     @property
     def _model(self) -> str:
-        return self.tree.model if isinstance(self.tree, Kept) else type(self.tree).__name__
+        return self.tree.model if isinstance(self.tree, Snapshot) else type(self.tree).__name__
 
     @exclusive
     def __reduce__(self) -> tuple[Any, ...]:
-        """Keep the values of all quantities, and nothing of the model."""
+        """Pickle the values of all quantities, without the model."""
         live = isinstance(self.tree, Component)
-        kept = keep(self.tree, self._evaluate, self.time.size) if live else self.tree
-        kept = kept.joined(self._more) if self._more else kept
-        return _loaded, (self.time, kept, self.outputs, self.stats, self.title)
+        snapshot = take_snapshot(self.tree, self._evaluate, self.time.size) if live else self.tree
+        snapshot = snapshot.joined(self._more) if self._more else snapshot
+        return _loaded, (self.time, snapshot, self.outputs, self.stats, self.title)
 
     def __copy__(self) -> Result:
         return Result(self.time, self._evaluate, self.tree, self.outputs, self.stats, self.title, self._more)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Result:
-        # The model and its values are never changed.
+        # The model and its values are immutable and shared.
         own = deepcopy(self._stats, memo)
         return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title, self._more)
 
@@ -124,14 +124,14 @@ class Result:
         Returns
         -------
         array, shape (times, *shape)
-            In SI units, read-only because it is kept.
+            In SI units, read-only because it is cached.
 
         Raises
         ------
         DeclarationError
             If the model has no such variable; the message names the nearest ones.
         """
-        return self._look([key])[0][1]
+        return self._arrays_of([key])[0][1]
 
     def __contains__(self, key: object) -> bool:
         try:
@@ -154,21 +154,21 @@ class Result:
         Parameters
         ----------
         *keys : str, Path or Expr
-            What to read; the outputs if there is none.
+            Quantities to read; the outputs if none are given.
         """
         return [
             Series(name, unit, array[(slice(None), *index)])
-            for quantity, array in self._look(keys or self.outputs)
+            for quantity, array in self._arrays_of(keys or self.outputs)
             for index, name, unit in quantity.entries
         ]
 
     def not_finite(self, *keys: Key) -> dict[str, float]:
-        """Return the first time in s at which each scalar that is not a number, or infinite, is so.
+        """Return the scalars that are not finite somewhere, each with the first such time in s.
 
         Parameters
         ----------
         *keys : str, Path or Expr
-            What to check; the outputs if there is none.
+            Quantities to check; the outputs if none are given.
         """
         return {
             s.name: float(self.time[k]) for s in self.series(*keys) for k in np.flatnonzero(~np.isfinite(s.values))[:1]
@@ -181,7 +181,7 @@ class Result:
         Raises
         ------
         ExportError
-            If the file cannot be written; an old one of that name stays as it was.
+            If the file cannot be written; an existing file of that name stays unchanged.
         """
         write_csv(path, self._columns(keys))
 
@@ -200,7 +200,7 @@ class Result:
         Parameters
         ----------
         *keys : str, Path or Expr
-            What to draw; the outputs if there is none.
+            Quantities to plot; the outputs if none are given.
         path : str or Path, optional
             Write the picture there; the suffix determines the format.
         show : bool, optional
@@ -209,21 +209,21 @@ class Result:
         Returns
         -------
         Figure
-            Of matplotlib, to be changed and saved.
+            A figure of matplotlib, to be changed and saved.
         """
         figure = draw(self.time, self.series(*keys), self.title)
         if path is not None:
             save(figure, path)
         if show:
-            opened(figure, path)
+            open_figure(figure, path)
         return figure
 
     def _beside(self, key: object) -> bool:
-        """Whether a key names what is read beside the model."""
+        """Return whether a key names a quantity that is not of the model."""
         return self._more is not None and isinstance(key, str | Path) and self._more.holds(str(key))
 
     def _find(self, key: Key) -> Quantity:
-        """Return what a key means, of the model or beside it."""
+        """Return the quantity of a key, of the model or beside it."""
         return find(self._more if self._more and self._beside(key) else self.tree, key)
 
     @checked_arguments
@@ -238,20 +238,20 @@ class Result:
         title: str = "",
         deformation: float = 1.0,
     ) -> None:
-        """Write how the machine moves, with the outputs under it.
+        """Write an animation of the machine, with plots of the outputs below it.
 
         Parameters
         ----------
         path : str or Path
-            Name of the file; it ends in .html, a page that any browser plays, .gif, a film, or .png, some moments at once.
+            Name of the file: .html, a page for any browser; .gif, a film; .png, several instants in one picture.
         frames : int
-            A longer result is thinned to about so many times.
+            Approximate number of frames to which a longer result is thinned.
         plots : sequence of str, Path or Expr
-            What is drawn under the picture; the outputs if there is none.
+            Quantities plotted below the picture; the outputs if empty.
         values : sequence of str
-            What beams can be coloured by besides what costs nothing: "bending moment", "axial force", or "all".
+            Extra quantities by which beams can be coloured: "bending moment", "axial force", or "all".
         title : str
-            Of the picture.
+            Title of the picture.
         deformation : float
             Scale of deformations, 1 to 1000; the page can change it.
 
@@ -260,15 +260,15 @@ class Result:
         ExportError
             If the file cannot be written, before anything is computed.
         DeclarationError
-            If the result has no time, no model any more, nothing to be seen, or no such values.
+            If the result has no times, no model, nothing visible, or no such values.
         """
-        from acausal.result.animated import Asked, write
+        from acausal.result.animated import AnimationOptions, write
 
-        write({self.title or self._model: self}, path, Asked(frames, plots, values, title, deformation))
+        write({self.title or self._model: self}, path, AnimationOptions(frames, plots, values, title, deformation))
 
     @exclusive
     def _repr_html_(self) -> str | None:
-        """Show a notebook how the machine moves, where there is something to be seen."""
+        """Show the animation in a notebook; None if nothing is visible."""
         from acausal.result.animated import in_notebook
 
         return in_notebook(self)
@@ -277,24 +277,24 @@ class Result:
         check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])
         return {"time": self.time} | {s.name: s.values for s in self.series(*keys)}
 
-    def _look(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
-        """Return quantities with their arrays for a user, and warn of values that are not numbers."""
+    def _arrays_of(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
+        """Return quantities with their arrays, and warn of values that are not finite, once per quantity."""
         quantities = [self._find(key) for key in keys]
         found = list(zip(quantities, self._read(quantities), strict=True))
         for quantity, array in found:
-            if quantity.name not in self._told and not np.isfinite(array).all():
-                self._told.add(quantity.name)
+            if quantity.name not in self._warned and not np.isfinite(array).all():
+                self._warned.add(quantity.name)
                 why = getattr(self._evaluate, "why", None) if quantity.declared else None
-                caution(no_numbers(quantity, array, self.time, why))
+                caution(invalid_values(quantity, array, self.time, why))
         return found
 
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
-        """Return the arrays of quantities, computing those that are new in one call."""
+        """Return the arrays of quantities; new ones are computed in one call."""
         new = [q for q in quantities if not (q.declared and q.name in self._arrays)]
-        arrays = read(new, self._evaluate, self.tree if isinstance(self.tree, Kept) else self._more, self.time.size)
+        arrays = read(new, self._evaluate, self.tree if isinstance(self.tree, Snapshot) else self._more, self.time.size)
         self._arrays |= {q.name: array for q, array in arrays.items() if q.declared}
         return [arrays[q] if q in arrays else self._arrays[q.name] for q in quantities]
 
 
-def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:
-    return Result(time, kept.evaluate, kept, outputs, stats, title)
+def _loaded(time: np.ndarray, snapshot: Snapshot, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:
+    return Result(time, snapshot.evaluate, snapshot, outputs, stats, title)

@@ -1,4 +1,4 @@
-"""Sizes, counts and seconds of a run."""
+"""Statistics of a run: sizes, counts, seconds, and findings."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ Value = TypeVar("Value")
 
 
 class Later(Generic[Value]):
-    """A field that may be given as a function without arguments, which is called when it is first read.
+    """A lazy field: it may be set to a function without arguments, which is called on first access.
 
     Parameters
     ----------
     default : any, or callable
-        Its value where none is given.
+        Default value.
     """
 
     def __init__(self, default: Value | Callable[[], Value]) -> None:
@@ -40,45 +40,45 @@ class Later(Generic[Value]):
 
 @dataclass(frozen=True)
 class Statistics(Mapping[str, Any]):
-    """What a run took and found: `stats.steps`, or `stats["steps"]`.
+    """Statistics of a run, read as `stats.steps` or `stats["steps"]`.
 
-    What does not apply to a run is None as an attribute, and no key.
+    A statistic that does not apply to the run is None as an attribute, and not among the keys.
 
     Parameters
     ----------
     equations_flat, equations_reduced, states, algebraic : int
         Scalar equations before and after the reduction, states and algebraic unknowns.
     steps, factorisations, residual_evaluations, calls, choices : int
-        Of the integrators; `choices` counts how often states of loops were chosen.
+        Counts of the integrators; `choices` counts how often the states of loops were chosen.
     operations : int
-        Instructions of a step, or of the equations, where the method of the run tells.
+        Instructions of a step, or of the equations, if the method reports them.
     compile_seconds, solve_seconds, integration_seconds : float
-        Seconds; the first are those of the model and of the integrators that the run made, the last those inside them. Where
-        the run before began in the same way, its beginning is taken, and its seconds count again.
+        Seconds to compile the model and build its integrators; to initialise and integrate; inside the integrators. An
+        initial point reused from the previous run counts with the seconds it took then.
     method, method_reason, method_steps, damped, max_order, order_reason, tolerance, fastest_rate, constraints
-        What was chosen and why: the methods with their steps, whether vibrations that positions do not show were damped, the
-        order limit, the tolerance, the size of the fastest eigenvalue at the start in 1/s, and how loops stayed closed. The
-        order limit and that size are found when they are first read.
+        Choices and their reasons: the methods with their steps, whether fast vibrations were damped numerically, the order
+        limit, the tolerance, the magnitude of the fastest eigenvalue at the start in 1/s, and how loops stayed closed. The
+        order limit and the eigenvalue are computed on first access.
     sizes : dict of str to float
-        Least size of the states of each unit: below it the tolerance is absolute.
+        Smallest nominal value of the states of each unit: below it the tolerance is absolute.
     break_times, event_times, loosened_at : list of float
-        Instants in s, the last where a larger tolerance was needed.
+        Instants in s; `loosened_at` lists those that needed a larger tolerance.
     events : int
         Number of events.
     loops, redundant_in_parts, independent_states
-        What the ranks of loops, and of constraints that parts state, showed at the start; found when they are first read.
+        Redundant constraints of loops and of parts, and independent states, by ranks at the start; computed on first access.
     doubts : list of str
-        What was used outside its range.
+        Components used outside their range of validity.
     stopped : str
         Why the run ended before its stop time.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
-        In J, if requested; the last is what the method itself lost.
+        Energies in J, if requested; `energy_method` is the numerical dissipation.
     consistent_evaluations : int
-        Evaluations of the equations for values that were read.
+        Evaluations of the equations for values read from the result.
     accuracy, accuracy_reached, error_estimate, error_output, error_tolerance, error_elements, error_estimates
-        What was requested and estimated, if an accuracy was.
+        Requested accuracy and estimated errors, if an accuracy was requested.
     elements_kept, chosen, trials
-        What was chosen and tried for it.
+        Numerics chosen and tried for the accuracy.
     """
 
     equations_flat: int = 0
@@ -130,14 +130,14 @@ class Statistics(Mapping[str, Any]):
     trials: list[dict[str, Any]] | None = None
 
     def __getitem__(self, name: str) -> Any:
-        """Return what goes by a name."""
+        """Return a statistic by name."""
         value = getattr(self, name) if name in self.__dict__ else None
         if value is None:
             raise KeyError(name)
         return value
 
     def changed(self, **values: Any) -> Statistics:
-        """Return the same with other values."""
+        """Return a copy with other values."""
         return Statistics(**{**vars(self), **values})
 
     def __getstate__(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""How tables are laid out: for a terminal, in Markdown and as CSV."""
+"""Tables: layout for a terminal and in Markdown, writing and reading of CSV."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.result.files import read_text, shown_name, whole
 
-# Where a narrow table breaks, in characters: names of columns, and what is in them.
+# Width in characters at which a narrow table breaks names of columns, and cells.
 NAME, CELL = 10, 42
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table to be read.
+    """A table of text.
 
     Parameters
     ----------
     head : sequence of str
-        Names of the columns; the one without a name marks rows, which Markdown shows in bold instead.
+        Names of the columns; a column without a name marks rows, which Markdown shows in bold instead.
     rows : sequence of sequence of str
         The cells.
     words : collection of str
-        Names of the columns with text, which are left-aligned.
+        Names of the left-aligned columns.
     """
 
     head: Sequence[str]
@@ -37,7 +37,7 @@ class Table:
     words: Collection[str] = ()
 
     def text(self, narrow: bool = False) -> str:
-        """Return it for a terminal.
+        """Return the table for a terminal.
 
         Parameters
         ----------
@@ -56,7 +56,7 @@ class Table:
         return "\n".join(lines)
 
     def markdown(self) -> str:
-        """Return it in Markdown."""
+        """Return the table in Markdown."""
         shown = [k for k, name in enumerate(self.head) if name]
         lines = [[self.head[k] for k in shown], ["---"] * len(shown)]
         for row in self.rows:
@@ -66,14 +66,14 @@ class Table:
 
 
 def write_csv(path: str | Path, columns: Mapping[str, Iterable[object]]) -> None:
-    """Write a table, a column for each name; every number reads back as it was.
+    """Write a table, a column for each name; numbers have all digits.
 
     Parameters
     ----------
     path : str or Path
         Name of the file.
     columns : mapping of str to array or sequence
-        The columns in order, one as long as the other.
+        The columns in order, of equal length.
     """
     plain = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns.values()]
     with whole(path) as file:
@@ -84,16 +84,16 @@ def write_csv(path: str | Path, columns: Mapping[str, Iterable[object]]) -> None
 
 @dataclass(frozen=True)
 class Columns:
-    """A table that was read, not yet as numbers.
+    """A table read from a file, not yet converted to numbers.
 
     Parameters
     ----------
     what, path : str
-        What it is, and the name of its file, for messages.
+        What the table is, and the name of its file, for messages.
     head : tuple of str
         Names of the columns.
     rows : tuple of (int, list of str)
-        Line of the file and cells.
+        Line number in the file, and cells.
     """
 
     what: str
@@ -105,7 +105,7 @@ class Columns:
         return f"{self.what} {shown_name(self.path)}"
 
     def numbers(self, name: str) -> np.ndarray:
-        """Return a column, or raise DeclarationError with the line of what is no finite number."""
+        """Return a column; raise DeclarationError with the line of an entry that is not a finite number."""
         place, found = self.head.index(name), np.empty(len(self.rows))
         for k, (line, row) in enumerate(self.rows):
             try:
@@ -121,26 +121,26 @@ class Columns:
 
 
 def read_csv(path: str | Path, what: str) -> Columns:
-    """Read a table as `write_csv` writes it.
+    """Read a table in the format of `write_csv`.
 
     Parameters
     ----------
     path : str or Path
         Name of the file.
     what : str
-        What it is, for messages.
+        What the table is, for messages.
 
     Raises
     ------
     DeclarationError
-        If it cannot be read or is no table.
+        If it cannot be read or is not a table.
     """
     reader = csv.reader(read_text(path, what).splitlines(keepends=True))
     title = f"{what} {shown_name(path)}"
     try:
         rows = tuple((reader.line_num, row) for row in reader if row)
     except csv.Error as error:
-        raise DeclarationError(f"{title} is no table: line {reader.line_num}: {error}.") from None
+        raise DeclarationError(f"{title} is not a table: line {reader.line_num}: {error}.") from None
     if not rows:
         raise DeclarationError(f"cannot read {title}: it is empty.")
     head, rows = tuple(name.strip() for name in rows[0][1]), rows[1:]
@@ -157,14 +157,14 @@ def read_csv(path: str | Path, what: str) -> Columns:
 
 
 def column_names(head: Sequence[str]) -> str:
-    """Return the names of columns for a message, not all where they are many."""
+    """Return the names of columns for a message, the first twenty of many."""
     most = 20
     shown = [shown_name(name) for name in head[:most]]
     return ", ".join([*shown, f"... ({len(head)} in all)"] if len(head) > most else shown)
 
 
 def _broken(name: str) -> list[str]:
-    """Break a long name between words or parts of words."""
+    """Break a long name at spaces and underscores."""
     if len(name) <= NAME:
         return [name]
     return [line.replace("_ ", "_") for line in textwrap.wrap(name.replace("_", "_ "), NAME, break_long_words=False)]

@@ -1,9 +1,9 @@
-"""The front door: from a model to a result, with what the model declares about its own simulation and with an accuracy."""
+"""Simulation and linearisation of models: settings, accuracy control, fixed-step methods, results of other methods."""
 
 from acausal.simulation.compiled_step import CompiledStep
-from acausal.simulation.given import result_of
+from acausal.simulation.fixed_step import March, march
 from acausal.simulation.linearize import Linearization, linearize
-from acausal.simulation.march import March, march
+from acausal.simulation.result_of import result_of
 from acausal.simulation.simulate import simulate
 from acausal.solve.beginning import forget
 

@@ -1,4 +1,4 @@
-"""A step of a rule that a user writes once, compiled, and mapped over as many steps as are taken at a time."""
+"""A step function of the user, compiled and mapped over several steps per call."""
 
 from __future__ import annotations
 
@@ -19,30 +19,29 @@ Step = Callable[[Expr, Expr], tuple[Any, Any]]
 
 
 class CompiledStep:
-    """A step that is compiled once and taken as often as wanted, several at a time without Python in between.
+    """A step function that is compiled once, and evaluated for several steps per call without Python in between.
 
-    `march` takes all steps of a run; this is for those whose inputs follow from the steps before, as where an error controls
-    their size.
+    Use it if inputs depend on earlier steps, as in error control; for a run with known inputs use `march`.
 
     Parameters
     ----------
     step : callable
-        From symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
-        to a vector of other values, of any length. Called once; what it gives depends on nothing else.
+        Function from symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
+        to a vector of other values, of any length. It is called once and must be a pure function of its arguments.
     states, inputs : int
-        Numbers n and u.
+        Sizes n and u.
 
     Attributes
     ----------
     operations : int
         Operations of one step.
     building, seconds : float
-        Seconds for compiling the step, and in the steps.
+        Seconds spent on compiling the step, and on taking steps.
 
     Raises
     ------
     DeclarationError
-        If the step does not return as many states as it was given, or needs other symbols.
+        If the step returns another number of states, or depends on other symbols.
 
     Examples
     --------
@@ -62,7 +61,7 @@ class CompiledStep:
 
     @property
     def outputs(self) -> int:
-        """How many other values a step gives."""
+        """Number of other values that a step returns."""
         return self._step.size1_out(1)
 
     @exclusive
@@ -74,12 +73,12 @@ class CompiledStep:
         start : array_like, shape (n,)
             State at the start.
         inputs : array_like, shape (steps, u)
-            What the steps are given, one row each; what maps a number of steps is built when it is first taken.
+            Inputs of the steps, one row each. The map over a new number of steps is built on its first call.
 
         Returns
         -------
         states, outputs : array, shape (steps, n) and (steps, outputs)
-            States after each step, and what each gave beside.
+            States after each step, and its other values.
         """
         began, u = clock.perf_counter(), np.asarray(inputs, dtype=float)
         x = np.asarray(start, dtype=float)
@@ -112,5 +111,5 @@ def _compiled(step: Step, n: int, m: int) -> ca.Function:
         return ca.Function("step", [x.sx, u.sx], [ca.densify(after.sx), ca.densify(values.sx)])
     except RuntimeError as error:
         raise DeclarationError(
-            "a step may depend on its state and its inputs alone: give other values as inputs."
+            "a step may depend on its state and its inputs alone; pass other values as inputs."
         ) from error

@@ -1,4 +1,4 @@
-"""Errors of a run, estimated from runs that are better than it."""
+"""Error estimates of a run by comparison with finer runs."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Estimate:
     Parameters
     ----------
     outputs : dict of str to float
-        Of each output, both errors together.
+        Total error of each output.
     total, tolerance, elements : float
-        Of the worst output: both together, by the tolerance alone, by the number of elements alone.
+        Largest error of all outputs: in total, due to the tolerance, due to the number of elements.
     worst : str
         The output with the largest error.
     """
@@ -40,12 +40,12 @@ def table(result: Result) -> tuple[list[str], np.ndarray]:
 
 
 def scale(values: np.ndarray) -> np.ndarray:
-    """Return what an error is compared with: the range over the times; where it rests, its size; where that is 0, 1.
+    """Return the scale of an error: the range of the values; their magnitude if they are constant; 1 if they are 0.
 
     Parameters
     ----------
     values : array, shape (times,) or (times, outputs)
-        What is right.
+        The exact values.
     """
     size = np.max(np.abs(values), axis=0)
     moved = np.ptp(values, axis=0)
@@ -56,19 +56,19 @@ def scale(values: np.ndarray) -> np.ndarray:
 def estimate(run: Result, finer: Result, tenths: float, doubled: Result | None, halved: Result | None) -> Estimate:
     """Estimate the errors of a run.
 
-    The remaining error of the better run is added by extrapolation: with the least power of the tolerance, and with the order
-    in the number of elements that a third run tells.
+    Richardson extrapolation accounts for the error of the finer run: with a fixed power of the tolerance, and with the
+    observed order in the number of elements if there are three runs.
 
     Parameters
     ----------
     run : Result
         The run.
     finer : Result
-        With a smaller tolerance.
+        The run with a tighter tolerance.
     tenths : float
-        Its tolerance over that of the run.
+        Ratio of its tolerance to that of the run.
     doubled, halved : Result or None
-        As finer, with twice and with half as many elements.
+        Runs like `finer` with twice, and with half as many elements.
     """
     names, values = table(run)
     exact = table(doubled or finer)[1]

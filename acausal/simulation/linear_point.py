@@ -1,4 +1,4 @@
-"""Warnings about the point of a linear system: it is no equilibrium, or the system changes as the point turns."""
+"""Warnings about a linearisation point: it is not an equilibrium, or the linear system is periodic."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.errors import caution
 from acausal.flatten.component_tree import walk
 from acausal.language.functions import time
@@ -17,11 +17,11 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import at_rest, meters, rates_allowed
 from acausal.solve.start.rotation import Turning, changes, cyclic, turning
 
-NAMED = 3  # rates that are named
+NAMED = 3  # rates that a warning names
 
 
 def check_point(problem: Problem, at: Point, slopes_at: Callable[[Point], np.ndarray]) -> None:
-    """Warn where deviations from a point do not follow a linear system with constant matrices.
+    """Warn if deviations from a point do not follow a linear system with constant matrices.
 
     Parameters
     ----------
@@ -47,9 +47,9 @@ def check_point(problem: Problem, at: Point, slopes_at: Callable[[Point], np.nda
         caution(_periodic_text(problem, turn, changing))
 
 
-@once
+@memoized
 def _depends(compiled: CompiledModel) -> tuple[bool, bool]:
-    """Whether the equations of motion depend on time, and whether they are linear with constant coefficients: at any point."""
+    """Return whether the equations of motion depend on time, and whether they are linear with constant coefficients."""
     running, unknowns = compiled.reduced.running, ca.vertcat(compiled.reduced.x, compiled.reduced.z)
     column = ca.vertcat(running.ode, running.alg, 0)
     by_time = any(ca.which_depends(column, time.sx, 1, True))
@@ -59,13 +59,13 @@ def _depends(compiled: CompiledModel) -> tuple[bool, bool]:
 
 
 def _moving(problem: Problem, at: Point, rates: np.ndarray) -> np.ndarray:
-    """States whose rates do not vanish, the largest in nominal values first."""
+    """Return the states with nonzero rates, the largest relative to their nominal values first."""
     moving = np.setdiff1d(np.flatnonzero(~(np.abs(rates) <= rates_allowed(problem, at))), meters(problem.compiled))
     return moving[np.argsort(-np.abs(rates[moving]) / problem.nominal[moving], kind="stable")]
 
 
 def _changing(problem: Problem, here: np.ndarray, there: np.ndarray) -> str:
-    """Name the matrices that differ between two points."""
+    """Return the names of the matrices that differ between two points."""
     nx = problem.nx
     columns = np.append(problem.nominal[:nx], np.ones(here.shape[1] - nx))
     differs = changes(here * columns, there * columns)
@@ -89,8 +89,8 @@ def _no_equilibrium_text(problem: Problem, at: float, rates: np.ndarray, moving:
     ]
     static = f', or initial="static" of {", ".join(parts)}' if parts else ""
     return (
-        f"{type(compiled.tree).__name__} is linearised about a point that is no equilibrium, t = {at:g} s: {largest} in nominal "
-        "values per s. Eigenvalues and frequencies are not those of small motions about a steady state. "
+        f"{type(compiled.tree).__name__} is linearised about a point that is not an equilibrium, t = {at:g} s: {largest} in "
+        "nominal values per s. Eigenvalues and frequencies are not those of small motions about a steady state. "
         f'Do this: linearize(..., initial="steady"){static}.'
     )
 
@@ -100,7 +100,7 @@ def _periodic_text(problem: Problem, turn: Turning, changing: str) -> str:
     fastest = int(np.argmax(np.abs(turn.rates) / size)) if turn.rates.any() else -1
     what = f"{compiled.states[fastest]} turns" if fastest >= 0 else "time goes on"
     what_it_means = (
-        "Eigenvalues at one position do not tell whether the motion is stable"
+        "Eigenvalues at one position do not determine the stability of the motion"
         if "A" in changing
         else "Responses at one position do not hold at others"
     )

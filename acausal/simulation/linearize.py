@@ -19,7 +19,7 @@ from acausal.language.component import Component
 from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
-from acausal.simulation.settings import check_number, settled
+from acausal.simulation.model_settings import check_number, effective_settings
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.opening import opening
 from acausal.solve.points import Point
@@ -28,20 +28,22 @@ from acausal.solve.start.kept import least_sharpness
 from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
-# Of the largest singular value: what a free coordinate leaves is some rounding errors.
+# Smallest singular value relative to the largest, below which it is round-off of the zero of a free coordinate.
 NOTHING = 1e-12
-ALONE = 1e-9  # of a product of matrices that is 0 but for rounding
-FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
-RESTS_FLAT = (
-    "its closed loops rest in a flat position, where forces of rigid parts are not determined. Let a part of the loop be "
-    "elastic, or start slightly away from there."
+ALONE = 1e-9  # norm of a matrix product relative to its factors, below which it is round-off of zero
+SINGULAR = "its equations are singular there, as in a singular configuration of a loop. Start slightly away from it."
+SINGULAR_AT_REST = (
+    "its closed loops rest in a singular configuration, where forces of rigid parts are not determined. Let a part of the "
+    "loop be elastic, or start slightly away from there."
 )
-NEAR_FLAT = 1e-7  # smallest singular value of constraints at which their slopes, some of them squared, are rounding
+# Smallest singular value of the constraint Jacobian below which derivatives that depend on its square are lost in round-off:
+# its square is then near the unit round-off.
+NEARLY_SINGULAR = 1e-7
 
 
 @dataclass(frozen=True)
 class Linearization:
-    """dx = A x + B u, y = C x + D u: deviations of states, inputs and outputs from the point of linearisation.
+    """Linear system dx/dt = A x + B u, y = C x + D u in the deviations from the linearisation point.
 
     Parameters
     ----------
@@ -61,7 +63,7 @@ class Linearization:
 
     @property
     def eigenvalues(self) -> np.ndarray:
-        """Eigenvalues of A in 1/s, by size, then by imaginary part."""
+        """Eigenvalues of A in 1/s, sorted by magnitude, then by imaginary part."""
         values = _eigenvalues(self.A)
         size = np.abs(values) / (np.max(np.abs(values), initial=0.0) or 1.0)
         return values[np.lexsort((np.imag(values), np.round(size, 9)))]
@@ -75,7 +77,7 @@ class Linearization:
 
     @property
     def frequencies_hz(self) -> np.ndarray:
-        """|Im lambda| / 2 pi, one for each conjugate pair, ascending, zeros left out."""
+        """|Im lambda| / 2 pi, one for each conjugate pair, ascending, without zeros."""
         return np.imag(self._oscillations) / (2 * np.pi)
 
     @property
@@ -85,7 +87,7 @@ class Linearization:
 
     @property
     def mode_shapes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Eigenvalues (n,) and eigenvectors (n, n), one mode a column, in the order of `states`."""
+        """Eigenvalues (n,) and eigenvectors (n, n), one mode per column, with rows in the order of `states`."""
         return np.linalg.eig(self.A)
 
 
@@ -98,7 +100,7 @@ def linearize(
     initial: str | None = None,
     time: float = 0.0,
 ) -> Linearization:
-    """Linearise a model about the point at which its runs begin, after what happens at that instant.
+    """Linearise a model about its initial point, after the events at that instant.
 
     Parameters
     ----------
@@ -117,27 +119,27 @@ def linearize(
 
     Notes
     -----
-    `feedback`, which keeps invariants in a run, is 1/s here where it is apart from all motion: the norm of the quaternion of a
-    body at rest that turns freely adds an eigenvalue of -2 1/s that no input moves and no output shows. Where it is not, as
-    for a body that turns, there is none.
+    `feedback`, which stabilises invariants in a run, is 1/s here if it decouples from the motion: the quaternion norm of a
+    freely turning body at rest adds an eigenvalue of -2 1/s that is neither controllable nor observable. If it does not
+    decouple, as for a body that turns, feedback is 0.
 
-    A warning tells if the point is neither at rest nor in steady rotation, and if the matrices change as a cyclic coordinate
-    turns: the linear system is periodic then.
+    A warning is given if the point is neither at rest nor in steady rotation, and if the matrices change as a cyclic
+    coordinate turns, so that the linear system is periodic.
 
     Discrete variables keep their values: a sampled controller does not act.
     """
-    how = settled(model, parameters, {"initial": initial})["initial"]
+    how = effective_settings(model, parameters, {"initial": initial})["initial"]
     check_number("time", time)
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
     at = opening(problem, time, how)
-    _refuse_flat(problem, at, how == "steady")
+    _refuse_singular(problem, at, how == "steady")
     inputs, nx = _inputs(compiled), compiled.nx
     slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in inputs]))
     slopes = slopes_at(at)
     check_point(problem, at, slopes_at)
     N, chosen = tangent(problem, at)
-    # By the independent states and the inputs.
+    # Derivatives by the independent states and the inputs.
     slopes = np.hstack([slopes[:, :nx] @ N, slopes[:, nx:]])
     (A, B), (C, D) = (np.split(rows, [len(chosen)], axis=1) for rows in (slopes[chosen], slopes[nx:]))
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name))]
@@ -152,14 +154,14 @@ def linearize(
     )
 
 
-def _refuse_flat(problem: Problem, at: Point, rests: bool) -> None:
-    """Refuse flat positions of closed loops; near one, a rest is not known well enough for the forces that are large there."""
-    if least_sharpness(problem, at) <= (POLICY.loops.flat if rests else NEAR_FLAT):
-        raise InitializationError(f"the model cannot be linearised: {RESTS_FLAT if rests else FLAT}")
+def _refuse_singular(problem: Problem, at: Point, rests: bool) -> None:
+    """Refuse singular configurations; near one, an equilibrium is too inexact for the large forces there."""
+    if least_sharpness(problem, at) <= (POLICY.loops.flat if rests else NEARLY_SINGULAR):
+        raise InitializationError(f"the model cannot be linearised: {SINGULAR_AT_REST if rests else SINGULAR}")
 
 
 def _slopes(problem: Problem, u: ca.SX) -> Callable[[Point], np.ndarray]:
-    """Derivatives of the rates and the outputs by the states and the inputs at a point, the algebraic unknowns eliminated."""
+    """Return a function for the derivatives of rates and outputs by states and inputs, algebraic unknowns eliminated."""
     compiled, nx, nz = problem.compiled, problem.nx, problem.nz
     r = compiled.reduced
     outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
@@ -184,28 +186,28 @@ def _slopes(problem: Problem, u: ca.SX) -> Callable[[Point], np.ndarray]:
         try:
             slopes, returning = eliminated.matrix(free), eliminated.matrix(kept)
         except RuntimeError:
-            raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
+            raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or SINGULAR}") from None
         return returning if _apart(slopes[:nx, :nx], (returning - slopes)[:nx, :nx]) else slopes
 
     return slopes_at
 
 
 def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:
-    """Free parameters that stand for the inputs at the top of the model."""
+    """Return the free parameters that represent the inputs of the model."""
     own, inputs = compiled.reduced.flat.parameters, inputs_of(compiled.tree)
     return [(n, s) for n, s in zip(own.names, scalars(own.symbols), strict=True) if s.element_hash() in inputs]
 
 
 def _entries(name: str, value: Any) -> list[str]:
-    """Names of the entries in the order of columns."""
+    """Return the names of the entries in column-major order."""
     places = sorted(np.ndindex(*value.shape), key=lambda index: index[::-1])
     return [name + (f"[{','.join(map(str, index))}]" if index else "") for index in places]
 
 
 def _eigenvalues(A: np.ndarray) -> np.ndarray:
-    """Eigenvalues, with those of free coordinates 0: as double zeros they would be split by the root of rounding.
+    """Return eigenvalues, with exact zeros for free coordinates: round-off would split a double zero by its square root.
 
-    In the axes of its null space N and what is at right angles to that, Q, a matrix has the zeros of N and the eigenvalues of
+    In an orthonormal basis of the null space N and its complement Q, a matrix has the zeros of N and the eigenvalues of
     Q' A Q.
     """
     A, zeros = scipy.linalg.matrix_balance(A, permute=False)[0] if A.size else A, 0
@@ -219,6 +221,6 @@ def _eigenvalues(A: np.ndarray) -> np.ndarray:
 
 
 def _apart(A: np.ndarray, feedback: np.ndarray) -> bool:
-    """Whether what the feedback changes takes no part in the motion: neither moves the other."""
+    """Return whether the feedback decouples from the motion: both matrix products vanish."""
     size = np.abs(A).max(initial=0.0) * np.abs(feedback).max(initial=0.0)
     return max(np.abs(A @ feedback).max(initial=0.0), np.abs(feedback @ A).max(initial=0.0)) <= ALONE * size

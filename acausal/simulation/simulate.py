@@ -11,9 +11,9 @@ from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import exclusive
 from acausal.result import Result
-from acausal.simulation.accuracy import reach
-from acausal.simulation.asked import planned
-from acausal.simulation.runs import Runs
+from acausal.simulation.accuracy_control import simulate_to_accuracy
+from acausal.simulation.run_cache import RunCache
+from acausal.simulation.settings_checks import checked_task
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
 
@@ -38,46 +38,47 @@ def simulate(
 ) -> Result:
     """Simulate a model.
 
-    Of stop_time, tolerance, accuracy, intervals, initial, method, constraints and max_order, what is not given is taken
-    from attributes of the same name in the model's class.
+    The arguments stop_time, tolerance, accuracy, intervals, initial, method, constraints and max_order default to
+    attributes of the same name in the model's class.
 
     Parameters
     ----------
     model : Component or CompiledModel
-        A model is compiled first, with the given parameters; a compiled one only takes new values.
+        A model is compiled first, with the given parameters; a compiled model only takes new values.
     stop_time, start_time : float
         In s.
     tolerance : float, optional
-        Relative tolerance of a step; absolute tolerance = tolerance * nominal value. The error of a result is typically
-        100 to 1000 times larger where bodies oscillate. Default 1e-6.
+        Relative tolerance of a step; absolute tolerance = tolerance * nominal value. The global error is typically 100 to
+        1000 times larger if bodies oscillate. Default 1e-6.
     accuracy : float, optional
         Instead of a tolerance: largest error of every output at the output points, as a fraction of its range in the run.
         Tolerance and order limit are chosen by comparing runs, and so is the number of elements or volumes of adaptive
-        beams, whatever the model says. `stats` lists what was chosen, estimated and tried; its counts are those of the
-        run that is returned, its compile and solve seconds those of all runs.
+        beams, whatever the model says. `stats` lists choices, estimates and trials; its counts are those of the returned
+        run, its compile and solve seconds those of all runs.
     intervals : int
         The result has intervals + 1 equidistant points; 400 by default.
     parameters : mapping of str to value, optional
         Values by path, such as {"beam.E": 7e10}.
     initial : "fixed", "guesses" or "steady"
-        Whether states without a condition at the start are refused, take their guesses, or take values at which all
-        derivatives vanish; if there are none, all but those of cyclic coordinates, in steady rotation. Default "fixed".
+        What to do with states without an initial condition: refuse them, take their guesses, or solve for an equilibrium;
+        without an equilibrium, for steady rotation about cyclic coordinates. Default "fixed".
     method : "auto", "idas", "rosenbrock" or "resolve"
-        "idas" is SUNDIALS' multistep method, whose error test sees every velocity; "resolve" is another name for it, and
-        follows every vibration. "rosenbrock" is a one-step method of order 5 that damps vibrations too small to be seen in
-        positions. "auto" lets the one-step method follow them, damps them where vibrations faster than the outputs take
-        more steps than the motion, and takes IDAS where loops pass flat positions (docs/ringing.md). Default "auto".
+        "idas" is SUNDIALS' multistep method, with every velocity in its error test, so that it resolves every vibration;
+        "resolve" is another name for it. "rosenbrock" is a one-step method of order 5 that damps vibrations too small to be
+        seen in positions. "auto" resolves them by the one-step method, damps them if vibrations faster than the outputs
+        take more steps than the motion, and takes IDAS where loops pass singular configurations (docs/ringing.md). Default
+        "auto".
     constraints : "auto", "states" or "projection"
-        How closed loops stay closed: "states" lets some coordinates follow from the others, chosen by pivots at the start
-        and again where the pivots fall; "projection" integrates all of them and projects. "auto" projects by the core; IDAS
-        begins with states, and projects if they do not last. Default "auto".
+        How closed loops stay closed: "states" integrates independent coordinates, chosen by pivots at the start and again
+        if the pivots become small; "projection" integrates all of them and projects. "auto" projects in the core; IDAS
+        begins with states, and projects if they become dependent too often. Default "auto".
     max_order : int, optional
-        Limit of the order of the multistep method, 1 to 5; chosen from the problem where it is not given.
+        Limit of the order of the multistep method, 1 to 5; chosen from the problem if not given.
     energy : bool
         Integrate the supplied and the dissipated power as well.
     progress : callable, optional
-        Called from time to time in long runs with the fraction that is done and the number of steps; with `accuracy`, those
-        of the run under way.
+        Called repeatedly in long runs with the fraction done and the number of steps; with `accuracy`, those of the
+        current run.
 
     Returns
     -------
@@ -87,9 +88,9 @@ def simulate(
     Raises
     ------
     InitializationError
-        If no consistent initial values exist or are found.
+        If no consistent initial values are found.
     SimulationError
-        If the integration fails, or the accuracy is not reached; its `result` holds what was computed.
+        If the integration fails, or the accuracy is not reached; its `result` holds the run so far.
     """
     given: dict[str, Any] = {
         "stop_time": stop_time,
@@ -101,7 +102,7 @@ def simulate(
         "constraints": constraints,
         "max_order": max_order,
     }
-    task, accuracy = planned(model, parameters, given, start_time=start_time, energy=energy, progress=progress)
+    task, accuracy = checked_task(model, parameters, given, start_time=start_time, energy=energy, progress=progress)
     try:
         result = _simulate(model, parameters, task, accuracy)
     except SimulationError as failure:
@@ -117,12 +118,12 @@ def _simulate(
     model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task, accuracy: float | None
 ) -> Result:
     if accuracy is not None:
-        return reach(accuracy, Runs(model, parameters, task))
+        return simulate_to_accuracy(accuracy, RunCache(model, parameters, task))
     return run(*ready(model, parameters), task)
 
 
 def _warn(result: object) -> None:
-    """Warn where components were used outside their range."""
+    """Warn of components used outside their range of validity."""
     if isinstance(result, Result):
         for doubt in result.stats.doubts:
             caution(doubt)

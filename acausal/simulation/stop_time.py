@@ -1,4 +1,4 @@
-"""The stop time that a model declares, and how such values follow from parameters."""
+"""The stop time that a model declares, and evaluation of settings that depend on parameters."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from acausal.symbols import stacked
 
 @exclusive
 def own_stop_time(model: Component, values: Mapping[str, Any] | None = None) -> float | None:
-    """Return the `stop_time` of a model in s, None where it has none.
+    """Return the `stop_time` of a model in s, None if it has none.
 
     Parameters
     ----------
     model : Component
-        Not built; `stop_time` is a number in the class, a property, a parameter or structural, or follows from these.
+        Not instantiated. Its `stop_time` is a number, a property, a parameter, structural, or an expression of these.
     values : mapping of str to value, optional
         Values by path that replace those of the model.
 
@@ -49,21 +49,21 @@ def own_stop_time(model: Component, values: Mapping[str, Any] | None = None) -> 
 
 
 def own_value(model: Component, name: str, values: Mapping[str, Any] | None = None) -> Any:
-    """Return an attribute of a model; what follows from parameters or structural fields is computed from their values.
+    """Return an attribute of a model; an expression of parameters or structural fields is evaluated.
 
     Parameters
     ----------
     model : Component
-        Not built.
+        Not instantiated.
     name : str
-        The attribute; None where the model has none.
+        Name of the attribute; None is returned if the model has none.
     values : mapping of str to value, optional
         Values by path that replace those of the model.
 
     Raises
     ------
     DeclarationError
-        If it follows from what has no value before the model runs.
+        If it depends on variables, which have no value before the run.
     """
     declared = vars(model).get(name, getattr(type(model), name, None))
     if declared is None:
@@ -75,13 +75,13 @@ def own_value(model: Component, name: str, values: Mapping[str, Any] | None = No
 
     def call() -> Any:
         now = PENDING.set(Pending())
-        PENDING.get().watches = False  # piecewise() of parameters is decided here, no switch
+        PENDING.get().watches = False  # piecewise() of parameters is evaluated here and makes no switch
         try:
             return getattr(root, name) if isinstance(declared, property) else f.evaluate(declared, root)
         except AttributeError as error:
             if not isinstance(error.obj, Component) or error.name not in error.obj.fields:
                 raise
-            raise DeclarationError(f"{name} follows from the variable `{error.name}`. {_MEND.format(name)}") from None
+            raise DeclarationError(f"{name} depends on the variable `{error.name}`. {_REMEDY.format(name)}") from None
         finally:
             PENDING.reset(now)
 
@@ -98,7 +98,7 @@ def check_stop_time(value: Any, of: str = "") -> float:
     value : number
         In s.
     of : str
-        Whose it is, for the message.
+        Its owner, for the message.
     """
     number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
     if not number or not np.isfinite(value) or value <= 0:
@@ -110,14 +110,14 @@ def check_stop_time(value: Any, of: str = "") -> float:
 
 
 def _number(sx: ca.SX, built: Instantiation, name: str) -> float:
-    """Return the value of a scalar of parameters."""
+    """Return the value of a scalar expression of parameters."""
     known = built.parameters
     inputs = {s.element_hash() for s in known.symbols}
     if sx.numel() != 1 or any(s.element_hash() not in inputs for s in ca.symvar(sx)):
         what = "time" if sx.numel() == 1 else f"an array of shape {sx.shape}"
-        raise DeclarationError(f"{name} of {type(built.root).__name__} follows from {what}. {_MEND.format(name)}")
+        raise DeclarationError(f"{name} of {type(built.root).__name__} depends on {what}. {_REMEDY.format(name)}")
     function = ca.Function("own", [stacked(known.symbols)], [ca.densify(sx)])
     return float(Call(function)(np.array(known.values))[0][0])
 
 
-_MEND = "Let it follow from parameters and structural fields alone, or give a number: {}=..."
+_REMEDY = "Compute it from parameters and structural fields alone, or give a number: {}=..."

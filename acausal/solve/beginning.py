@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import latest, making
+from acausal.compiler.memo import memo_seconds, memoized_latest
 from acausal.solve.checks.validity import check_start
 from acausal.solve.integrate.order import Spectrum
 from acausal.solve.opening import Opening
@@ -51,10 +51,10 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
 
 def forget(compiled: CompiledModel) -> None:
     """Let the next run find where it starts anew, and measure what that takes."""
-    compiled.kept.pop(kept.__wrapped__, None)
+    compiled.memo.pop(kept.__wrapped__, None)
 
 
-@latest(1)
+@memoized_latest(1)
 def kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
     """Return the beginning of runs with the same feedback, start time, first instant and parameters, given as bytes."""
     (feedback, time, later), p = np.split(np.frombuffer(numbers), [3])
@@ -67,11 +67,11 @@ def kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
 
 
 def _found(problem: Problem, time: float, later: float, initial: str) -> Beginning:
-    started, made = clock.perf_counter(), making(problem.compiled)
+    started, made = clock.perf_counter(), memo_seconds(problem.compiled)
     begun = start(problem, time, later, initial)
     check_start(problem, begun.point)
     if initial == "steady":
         Opening(problem, time, later).refuse_passing(begun.point)
     at = go_on(problem, begun)
-    spectrum, building = Spectrum(problem, at), making(problem.compiled) - made
+    spectrum, building = Spectrum(problem, at), memo_seconds(problem.compiled) - made
     return Beginning(begun, at, spectrum, clock.perf_counter() - started - building)

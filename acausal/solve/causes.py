@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.compiler.whole import EQUATION, Row
+from acausal.compiler.full_residuals import EQUATION, Row
 from acausal.policy import POLICY
 from acausal.solve.dependent import dependent
 from acausal.solve.guesses import ELSEWHERE, mend_of

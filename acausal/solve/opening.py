@@ -54,7 +54,7 @@ class Opening:
         before, _ = self.agenda.at_start(at, self.agenda.on(self.later), self.instants)
         if not len(before.truth):
             return
-        planned = {k for k, _ in guards.plans}
+        planned = {k for k, _ in guards.scheduled_guards}
         holds = self.instants.holds(before, np.zeros(len(before.truth), dtype=bool))
         begins = holds & ~before.truth & ~self.instants.is_switch
         acts = [k for k in self.instants.watched[begins].tolist() if k not in planned]

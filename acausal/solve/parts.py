@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from acausal.compiler.local import with_entries
+from acausal.compiler.linearization import with_entries
 
 Places = np.ndarray | list[int]
 

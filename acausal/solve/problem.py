@@ -10,10 +10,10 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_motion, core_square
-from acausal.compiler.local import Local, with_entries
-from acausal.compiler.once import once
-from acausal.compiler.rowwise import Rowwise
-from acausal.compiler.whole import whole
+from acausal.compiler.full_residuals import full_residuals
+from acausal.compiler.linearization import PointLinearization, with_entries
+from acausal.compiler.memo import memoized
+from acausal.compiler.vectorized import Vectorized
 from acausal.core import Settler, library
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
@@ -75,13 +75,13 @@ class Problem:
         """Return ode, alg and conditions; `flag` is 1 while the initial system holds. Overwritten by the next call."""
         return self.compiled.values(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0]
 
-    def local(self, at: Point, flag: float = 0.0) -> Local:
+    def local(self, at: Point, flag: float = 0.0) -> PointLinearization:
         """Return the same with their Jacobian by states and algebraic unknowns."""
         return self.compiled.at(at.x, at.z, self.p, at.time, at.constants.vector, flag)
 
     def unknowns(self, at: Point, flag: float = 0.0) -> np.ndarray:
         """Return all unknowns of the model as it was stated, those that are solved explicitly too."""
-        return whole(self.compiled).unknowns(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0].copy()
+        return full_residuals(self.compiled).unknowns(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0].copy()
 
     def constraints(self, at: Point) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return the residuals of the constraints and their Jacobian by the states."""
@@ -218,7 +218,7 @@ class Problem:
         square = core_motion(self.compiled)[0]
         return Settler(square) if square else None
 
-    def each(self, function: Rowwise, rows: Rows) -> np.ndarray:
+    def each(self, function: Vectorized, rows: Rows) -> np.ndarray:
         """Return the values of a function, one row for each time."""
         return function(rows.x, rows.z, self.p, rows.times[:, None], rows.constants)
 
@@ -232,7 +232,7 @@ class Problem:
         return Point(float(rows.times[k]), rows.x[k], rows.z[k], constants)
 
 
-@once
+@memoized
 def rates_of(compiled: CompiledModel) -> list[tuple[int, int]]:
     """Return pairs (coordinate, rate) among the states."""
     plan = compiled.reduced.plan

@@ -6,8 +6,8 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
-from acausal.compiler.constraints import Constraints
-from acausal.compiler.once import latest, once
+from acausal.compiler.constraint_jacobian import Constraints
+from acausal.compiler.memo import memoized, memoized_latest
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, parts
 from acausal.units import BASES, Dimension, parse
@@ -15,7 +15,7 @@ from acausal.units import BASES, Dimension, parse
 LOOPS, RANKS = POLICY.loops, POLICY.ranks
 
 
-@once
+@memoized
 def levels_of(compiled: CompiledModel) -> list[Part]:
     """Constraints of one level that share coordinates, with the entries of D."""
     c = compiled.constraints
@@ -40,7 +40,7 @@ def reaches(compiled: CompiledModel, p: np.ndarray) -> np.ndarray:
     return nominal * _factors(compiled, p.tobytes()) if _groups(compiled) else nominal
 
 
-@latest(1)
+@memoized_latest(1)
 def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
     """Factors of the nominal values.
 
@@ -105,7 +105,7 @@ def _terms(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, constants: Con
     return np.array([found[place[pair]] if pair in place else 0.0 for pair in zip(*c.entries.tolist(), strict=True)])
 
 
-@once
+@memoized
 def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, np.ndarray]]]]:
     """States of each part by their units, with their entries in equations that several units share.
 

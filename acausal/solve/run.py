@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import making
+from acausal.compiler.memo import memo_seconds
 from acausal.compiler.report import loops_at, parts_at
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
@@ -75,10 +75,10 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     SimulationError
         If the integration fails; its `result` holds what was computed.
     """
-    made, (problem, plan, beginning) = making(compiled), _begun(compiled, p, task)
-    begun, at_first = clock.perf_counter(), making(compiled)
+    made, (problem, plan, beginning) = memo_seconds(compiled), _begun(compiled, p, task)
+    begun, at_first = clock.perf_counter(), memo_seconds(compiled)
     done = _integrated(problem, plan, beginning, task)
-    building = done.integrator.trace.building + making(compiled) - at_first
+    building = done.integrator.trace.building + memo_seconds(compiled) - at_first
     # A run costs what it costs, whichever run before it left its beginning.
     seconds = beginning.seconds + clock.perf_counter() - begun - building
     done.integrator.trace.building = building + at_first - made

@@ -10,7 +10,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.whole import Row, Whole, whole
+from acausal.compiler.full_residuals import FullResiduals, Row, full_residuals
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
@@ -24,7 +24,7 @@ ROUNDING = POLICY.newton.terms * np.finfo(float).eps
 class There:
     """The rows of a model at a point."""
 
-    whole: Whole
+    whole: FullResiduals
     p: np.ndarray
     at: Point
     flag: float
@@ -33,7 +33,7 @@ class There:
     @classmethod
     def of(cls, problem: Problem, at: Point, flag: float) -> There:
         """Take the unknowns that are solved explicitly as they are there."""
-        return cls(whole(problem.compiled), problem.p, at, flag, problem.unknowns(at, flag))
+        return cls(full_residuals(problem.compiled), problem.p, at, flag, problem.unknowns(at, flag))
 
     @property
     def arguments(self) -> tuple[Any, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from acausal.compiler.whole import EVENT, whole
+from acausal.compiler.full_residuals import EVENT, full_residuals
 from acausal.solve.causes import without_value
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
@@ -37,7 +37,7 @@ def _matters(problem: Problem, at: Point, guard: int) -> bool:
     compiled = problem.compiled
     if guard >= compiled.guards.n_switches:
         return True
-    own, unknowns = whole(compiled), problem.unknowns(at)
+    own, unknowns = full_residuals(compiled), problem.unknowns(at)
     found = []
     for holds in (False, True):
         constants = at.constants.switched([guard], [holds]).vector

@@ -10,9 +10,9 @@ import typer
 
 from acausal import DeclarationError
 from acausal.cli.common import Quiet, running
+from acausal.cli.option_values import pair, value_of
 from acausal.cli.output import check_outputs, steps_bar
-from acausal.cli.streams import ended, tolerant
-from acausal.cli.values import pair, value_of
+from acausal.cli.streams import escape_unencodable, flushed
 from acausal.result import shown_name
 from components.fe import ReducedBody, read_mesh, read_sid, reduce_body
 from components.fe.formats.kinds import SID, reader_of
@@ -111,11 +111,11 @@ def reduce(
 
 def main() -> None:
     """Run the command line."""
-    tolerant()
+    escape_unencodable()
     try:
         app(prog_name="python -m components.fe")
     except SystemExit as end:
-        sys.exit(ended(end.code))
+        sys.exit(flushed(end.code))
 
 
 def _matrices(file: str, material: str | None, scales: dict[str, float]) -> tuple[Any, Any, Any]:

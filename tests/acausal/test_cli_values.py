@@ -9,8 +9,8 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, der, output, parameter, variable
+from acausal.cli.option_values import read_settings
 from acausal.cli.output import modes_table, plain, summary, write_json
-from acausal.cli.values import read_settings
 from acausal.errors import DeclarationError
 
 

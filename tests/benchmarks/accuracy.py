@@ -191,7 +191,7 @@ def _sentence(text: str) -> str:
 
 
 def _table(found: Study, rows: Iterable[Any]) -> str:
-    from acausal.study.studies.table import cells
+    from acausal.study.studies.study_table import cells
 
     chosen = [replace(row, front=False) for row in rows]
     return cells(chosen, found.reference, found.switches).markdown()

@@ -10,5 +10,5 @@ from acausal.solve.beginning import kept
 
 def run_anew(compiled: ac.CompiledModel, **how: Any) -> ac.Result:
     """Simulate as if no run had been before; what was compiled for runs stays."""
-    compiled.kept.pop(vars(kept)["__wrapped__"], None)
+    compiled.memo.pop(vars(kept)["__wrapped__"], None)
     return ac.simulate(compiled, **how)

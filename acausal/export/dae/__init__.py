@@ -1,1 +1,1 @@
-"""Open DAEs: archives of models that are read without the classes that made them."""
+"""Open DAEs: archives of models that can be read without the models' classes."""

@@ -1,4 +1,4 @@
-"""The reduced DAE in Base Modelica: one flat model, its equations linear in size, read by tools that know no parts."""
+"""The reduced DAE in Base Modelica: one flat model whose text grows linearly with the model."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import AcausalError
-from acausal.export.dae.modelica_text import Names, hashed, number, texts, written
-from acausal.export.dae.shown import unknown_names
+from acausal.export.dae.dae_listing import unknown_names
+from acausal.export.dae.modelica_text import Names, hashed, modelica, number, texts
 from acausal.flatten.component_tree import join, walk
 from acausal.flatten.discontinuities import Guard
 from acausal.language import fields as f
@@ -22,7 +22,9 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.start import start
 from acausal.symbols import dense, scalars, stacked
 
-CHOSEN = "// What acausal chooses when it starts a run, here for projection along the constraints, and feedback for a run of 1 s."
+CHOSEN = (
+    "// Values that acausal chooses at the start of a run: projection along the constraints, feedback for a run of 1 s."
+)
 
 
 class _Text:
@@ -78,18 +80,18 @@ class _Text:
         entries = zip(self.unknowns, (*compiled.states, *compiled.algebraic), at, strict=True)
         for text, name, value in entries:
             unit = str(units.get(name, ""))
-            said = f'unit = "{unit}", ' if unit and "^" not in unit else ""
-            yield f"Real {text}({said}start = {number(value)}){self._comment(name)};"
+            attribute = f'unit = "{unit}", ' if unit and "^" not in unit else ""
+            yield f"Real {text}({attribute}start = {number(value)}){self._comment(name)};"
         yield from (f"Real {text};" for text in self.switches)
         yield from (f"discrete Real {text};" for text in self.discretes)
 
     def _comment(self, name: str) -> str:
-        said = self.described.get(re.sub(r"\[[\d,]+\]$", "", name), "")
-        said = said.replace("\\", "\\\\").replace('"', '\\"')
-        return f' "{said}"' if said else ""
+        description = self.described.get(re.sub(r"\[[\d,]+\]$", "", name), "")
+        description = description.replace("\\", "\\\\").replace('"', '\\"')
+        return f' "{description}"' if description else ""
 
     def _choice(self) -> list[float]:
-        """Return what is chosen of closed loops: redundant closures do not count, D moves with the constraints."""
+        """Return the choices for closed loops: redundant closures are dropped, D follows the constraint Jacobian."""
         compiled, layout = self.compiled, self.compiled.layout
         span = float(POLICY.loops.feedback)
         closures, shares = np.ones(layout.closures), np.eye(layout.parts)
@@ -99,11 +101,11 @@ class _Text:
                 closures[list(found.found(compiled).dropped)] = 0.0
                 shares = found.point.constants.shares
             except AcausalError:
-                pass  # it starts with other values of parameters: all closures count until then
+                pass  # these parameter values have no consistent start: keep all closures
         return [*closures.tolist(), *shares.T.ravel().tolist(), *[1.0] * (layout.moves + layout.D), span]
 
     def whole(self) -> str:
-        """Return the model."""
+        """Return the text of the model."""
         compiled, r = self.compiled, self.compiled.reduced
         outputs = self._outputs()
         starts = [value for _, value in r.flat.discontinuities.discretes]
@@ -111,8 +113,8 @@ class _Text:
         columns = [r.ode, r.alg, ca.substitute(compiled.conditions, initial.sx, 1), self._resolved(starts)]
         columns += [self._resolved(_excesses(switches)), stacked([e for _, e in outputs])]
         (ode, alg, conditions, begun, excesses, values), shared = self._written(columns, self.known)
-        said = iter(excesses)
-        held = [_condition(guard.condition, said) for guard in switches]
+        excess_texts = iter(excesses)
+        held = [_condition(guard.condition, excess_texts) for guard in switches]
         initials = [f"{e} = 0.0;" for e in conditions]
         initials += [f"{d} = {e};" for d, e in zip(self.discretes, begun, strict=True)]
         whens, more = self._whens()
@@ -129,21 +131,21 @@ class _Text:
         return self.compiled.reduced.running.resolve(stacked(entries)) if entries else ca.SX(0, 1)
 
     def _written(self, columns: list[ca.SX], known: dict[int, str]) -> tuple[list[list[str]], list[tuple[str, str]]]:
-        """Return the texts of columns, and what they share."""
-        found, shared = written(stacked([dense(ca.SX(c)) for c in columns]), known, self.names)
+        """Return the texts of columns, and their common subexpressions."""
+        found, shared = modelica(stacked([dense(ca.SX(c)) for c in columns]), known, self.names)
         return texts(found, [c.numel() for c in columns]), shared
 
     def _whens(self) -> tuple[list[str], list[tuple[str, str]]]:
-        """Return the clauses of jumps and what they share: discrete variables are those before the instant."""
+        """Return the when-clauses and their common subexpressions; discrete variables have the values before the event."""
         guards, first = self.compiled.guards, self.compiled.guards.n_switches
         stated = guards.guards[first:]
         jumps = [self._jumps(k) for k in range(first, len(guards.guards))]
         before = {h: f"pre({name})" for h, name in zip(self.discrete_hashes, self.discretes, strict=True)}
         columns = [self._resolved(_excesses(stated)), stacked([e for some in jumps for _, e in some])]
         (excesses, values), shared = self._written(columns, self.known | before)
-        said, new, found = iter(excesses), iter(values), list[str]()
+        excess_texts, new, found = iter(excesses), iter(values), list[str]()
         for guard, some in zip(stated, jumps, strict=True):
-            held = _condition(guard.condition, said)
+            held = _condition(guard.condition, excess_texts)
             found.append(f"when {{{held}, initial()}} then" if guard.at_start else f"when {held} then")
             for left, _ in some:
                 found.append(f"  reinit({left}, {next(new)});" if left in self.unknowns else f"  {left} = {next(new)};")
@@ -151,7 +153,7 @@ class _Text:
         return found, shared
 
     def _jumps(self, guard: int) -> list[tuple[str, ca.SX]]:
-        """Return what jumps at an instant, and its new value."""
+        """Return the variables that jump at an event, and their new values."""
         if not self.compiled.guards.guards[guard].jumps:
             return []
         call, places = self.compiled.guards.jump(guard)
@@ -160,7 +162,7 @@ class _Text:
         return list(zip(names, values, strict=True))
 
     def _outputs(self) -> list[tuple[str, ca.SX]]:
-        """Return outputs that are no unknowns, and what they are."""
+        """Return the outputs that are not unknowns, and their expressions."""
         compiled, known = self.compiled, {*self.compiled.states, *self.compiled.algebraic}
         found = []
         for name in compiled.outputs:
@@ -172,7 +174,7 @@ class _Text:
 
 
 def _excesses(guards: Sequence[Guard]) -> list[ca.SX]:
-    """Return what is compared with 0 in conditions."""
+    """Return the excesses of all comparisons, which are compared with 0."""
     return [part.excess.sx for guard in guards for part in guard.condition.comparisons]
 
 
@@ -184,7 +186,7 @@ def _condition(condition: Condition, excesses: Iterator[str]) -> str:
 
 
 def _framed(name: str, lines: list[str], initials: list[str], equations: list[str]) -> str:
-    """Return a package with one model."""
+    """Return the text of a package with one model."""
     name = Names()(name)
     parts = [("", lines), ("  initial equation", initials), ("  equation", equations)]
     text = [line for head, some in parts if some for line in (*[head][: bool(head)], *(f"    {one}" for one in some))]

@@ -1,4 +1,4 @@
-"""Export a model as an open DAE: its equations for whoever reads them, and for `load_dae`."""
+"""export_dae(): write a model as an open DAE, for `load_dae` and other programs."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ import numpy as np
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.requirements import Stated, statements
 from acausal.errors import ExportError
-from acausal.export.dae import archive, tree
+from acausal.export.dae import component_tree, dae_archive
 from acausal.export.dae.base_modelica import base_modelica
+from acausal.export.dae.dae_listing import listing
 from acausal.export.dae.expressions import NAMES, Writer
-from acausal.export.dae.plain import encoded
-from acausal.export.dae.shown import shown
+from acausal.export.dae.json_values import encoded
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
@@ -25,7 +25,7 @@ from acausal.language.functions import feedback, initial, time
 from acausal.language.validity_statements import Expectation, Separation
 from acausal.locks import exclusive
 from acausal.result import check_writable
-from acausal.simulation.settings import declared_settings
+from acausal.simulation.model_settings import declared_settings
 
 # Symbols that all models share.
 SHARED = {"time": time, "initial": initial, "feedback": feedback}
@@ -36,37 +36,37 @@ SHARED = {"time": time, "initial": initial, "feedback": feedback}
 def export_dae(
     model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None
 ) -> None:
-    """Write the equations of a model as an open DAE, an archive that `load_dae` and other programs read.
+    """Write a model as an open DAE, an archive for `load_dae` and other programs.
 
-    It holds variables, parameters and equations with names, units and origins in JSON, all expressions as lists of
-    operations, and the model in Base Modelica; docs/open-dae.md describes it.
+    The archive contains variables, parameters and equations with names, units and origins in JSON, all expressions as lists
+    of operations, and the model in Base Modelica; docs/open-dae.md describes the format.
 
     Parameters
     ----------
     model : Component or CompiledModel
         The model.
     path : str or Path
-        File that is written, whole or not at all.
+        Name of the file, which is written atomically.
     parameters : mapping of str to value, optional
-        Values by path that the model has in the file.
+        Values by path for the file.
 
     Raises
     ------
     ExportError
-        If the file cannot be written, or the model holds something that the file cannot.
+        If the file cannot be written, or the model contains something that the format cannot represent.
     """
     check_writable(path)
     compiled, p = ready(model, parameters)
     writer = Writer()
     kept, unchecked = _stated(compiled)
-    values = tree.evaluated(compiled.tree)
+    values = component_tree.evaluated(compiled.tree)
     inside = {
         "model": encoded(compiled.reduced, writer.add),
         "values": encoded(p, writer.add),
-        "tree": tree.written(compiled.tree, values, kept, writer.add),
+        "tree": component_tree.encode_tree(compiled.tree, values, kept, writer.add),
         "settings": {name: encoded(value, writer.add) for name, value in declared_settings(compiled).items()},
     }
-    described = shown(compiled, p, values, writer.add)
+    described = listing(compiled, p, values, writer.add)
     operations, symbols = writer.operations()
     hashes = [s.element_hash() for s in symbols]
     places = {name: expr.sx.element_hash() for name, expr in SHARED.items()}
@@ -82,17 +82,17 @@ def export_dae(
         "expressions": operations.shapes,
     }
     members = {
-        "model.json": archive.as_json(inside),
+        "model.json": dae_archive.as_json(inside),
         "model.mo": _modelica(compiled, p).encode(),
         "constants": operations.constants.tobytes(),
         "operations": operations.operations.tobytes(),
         "places": operations.places.tobytes(),
     }
-    archive.write(path, first, members)
+    dae_archive.write(path, first, members)
 
 
 def _modelica(compiled: CompiledModel, p: np.ndarray) -> str:
-    """Return the model in Base Modelica, or a comment where it cannot say what the model does."""
+    """Return the model in Base Modelica, or a comment if Base Modelica cannot express it."""
     try:
         return base_modelica(compiled, p)
     except ExportError as error:
@@ -100,7 +100,7 @@ def _modelica(compiled: CompiledModel, p: np.ndarray) -> str:
 
 
 def _stated(compiled: CompiledModel) -> tuple[list[Stated], list[str]]:
-    """Return what components state, and of which requirements only the subject is kept: functions need the classes."""
+    """Return the statements of components, and the subjects of requirements checked by functions, which are left out."""
     kept: list[Stated] = []
     unchecked: list[str] = []
     for statement, origin in compiled.requirements.stated:

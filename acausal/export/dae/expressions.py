@@ -1,4 +1,4 @@
-"""Expressions as lists of operations, which are read without CasADi, and back with all that they share."""
+"""Expressions as lists of operations, readable without CasADi; common subexpressions stay shared."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from acausal.instructions import CONSTANT, READABLE, read_instructions
 from acausal.symbols import stacked
 
 INT, FLOAT = np.dtype("<i4"), np.dtype("<f8")
-MOST = 1 << 24  # rows or columns: more than any model has unknowns
+MOST = 1 << 24  # limit of rows or columns of an expression: more than any model has unknowns
 _UNARY = (
     *(ca.OP_NEG, ca.OP_SQ, ca.OP_TWICE, ca.OP_INV, ca.OP_SQRT, ca.OP_SIN, ca.OP_COS, ca.OP_TAN, ca.OP_ASIN, ca.OP_ACOS),
     *(ca.OP_ATAN, ca.OP_EXP, ca.OP_LOG, ca.OP_SINH, ca.OP_COSH, ca.OP_TANH, ca.OP_ASINH, ca.OP_ACOSH, ca.OP_ATANH),
     *(ca.OP_FABS, ca.OP_SIGN, ca.OP_FLOOR, ca.OP_CEIL, ca.OP_LOG1P, ca.OP_EXPM1, ca.OP_ERF, ca.OP_NOT, ca.OP_ASSIGN),
 )
 UNARY = frozenset(KIND[op] for op in _UNARY)
-# Those of numpy where it has the operation.
+# Names of the operations: those of numpy if it has the operation.
 NAMES = (
     *(
         "add",
@@ -75,20 +75,20 @@ NAMES = (
 
 @dataclass(frozen=True, eq=False)
 class Operations:
-    """Operations on one array of numbers: constants, symbols, results.
+    """Operations on one array of numbers: constants, then symbols, then results.
 
     Attributes
     ----------
     constants : array of float
-        The first numbers.
+        The constants.
     symbols : list of str
-        Names of what is given: the next numbers.
+        Names of the symbols.
     operations : array of int, shape (n, 3)
-        Kind and places of both arguments of each result, twice the same where there is one.
+        Kind of each operation, and positions of its two arguments; a single argument is given twice.
     places : array of int
-        Where the entries of all expressions stand.
+        Positions of the entries of all expressions.
     shapes : list
-        Rows, columns, and the places in column-major order of the entries that are no structural zeros, None where all are.
+        Rows, columns, and positions of the nonzeros in column-major order, None for a dense expression.
     """
 
     constants: np.ndarray
@@ -99,14 +99,14 @@ class Operations:
 
 
 class Writer:
-    """Collects expressions, and gives the operations of all of them."""
+    """Collects expressions and converts them to operations."""
 
     def __init__(self) -> None:
         self._columns: list[ca.SX] = []
         self._shapes: list[tuple[int, int, list[int] | None]] = []
 
     def add(self, expression: ca.SX | ca.DM) -> int:
-        """Return the number of an expression."""
+        """Add an expression and return its number."""
         expression = ca.SX(expression)
         rows, columns = expression.shape
         dense = expression.is_dense()
@@ -121,7 +121,7 @@ class Writer:
         Raises
         ------
         ExportError
-            If an expression holds an operation that the core does not know.
+            If an expression contains an operation unknown to the core.
         """
         column = stacked(self._columns)
         symbols = ca.symvar(column)
@@ -134,7 +134,7 @@ class Writer:
             if not arguments:
                 continue
             if op not in KIND:
-                raise ExportError(f"the model holds an operation that an open DAE does not know, CasADi's number {op}.")
+                raise ExportError(f"the model contains an operation unknown to an open DAE, number {op} of CasADi.")
             seat[node] = first + len(rows)
             rows.append((KIND[op], seat[arguments[0]], seat[arguments[-1]]))
         found = Operations(
@@ -153,14 +153,14 @@ class Reader:
     Parameters
     ----------
     given : Operations
-        As a Writer made them.
+        From a Writer.
     known : callable
-        From number and name of a symbol to the symbol.
+        Function from number and name of a symbol to the symbol.
 
     Raises
     ------
     ValueError
-        If the operations do not fit together.
+        If the operations are inconsistent.
     """
 
     @uncollected()
@@ -187,21 +187,21 @@ class Reader:
 
 
 def check(given: Operations) -> None:
-    """Raise ValueError where operations do not fit together: what stands in a file is not believed."""
+    """Raise ValueError if operations are inconsistent: the content of a file is not trusted."""
     first = len(given.constants) + len(given.symbols)
     before = first + np.arange(len(given.operations))
     kinds, arguments = given.operations[:, 0], given.operations[:, 1:]
     if np.any((kinds < 0) | (kinds >= len(KINDS))):
         raise ValueError("an operation is unknown")
     if np.any((arguments < 0) | (arguments >= before[:, None])):
-        raise ValueError("an argument does not stand before its result")
+        raise ValueError("an argument does not precede its result")
     if np.any((given.places < 0) | (given.places >= first + len(given.operations))):
         raise ValueError("an entry of an expression does not exist")
     for rows, columns, pattern in given.shapes:
         if not (0 <= rows <= MOST and 0 <= columns <= MOST):
-            raise ValueError("an expression has no shape that can be")
+            raise ValueError("the shape of an expression is invalid")
         if pattern is not None and any(not 0 <= k < rows * columns for k in pattern):
-            raise ValueError("an entry of an expression stands outside it")
+            raise ValueError("an entry of an expression is outside its shape")
     if sum(map(_size, given.shapes)) != len(given.places):
         raise ValueError("expressions and their entries differ in number")
 

@@ -1,4 +1,4 @@
-"""Read an open DAE: a compiled model, without the classes that made it."""
+"""load_dae(): read an open DAE as a compiled model, without the model's classes."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.export.dae import archive, tree
+from acausal.export.dae import component_tree, dae_archive
 from acausal.export.dae.export_dae import SHARED
 from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
-from acausal.export.dae.plain import decoded
+from acausal.export.dae.json_values import decoded
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import exclusive
@@ -24,7 +24,7 @@ from acausal.result import document
 @checked_arguments
 @exclusive
 def load_dae(path: str | Path) -> CompiledModel:
-    """Read a model that `export_dae` wrote; its classes are not needed.
+    """Read a model written by `export_dae`; its classes are not needed.
 
     Parameters
     ----------
@@ -34,43 +34,43 @@ def load_dae(path: str | Path) -> CompiledModel:
     Returns
     -------
     CompiledModel
-        It simulates as the model that was written; sizes and effects, which need the classes, are fixed.
+        The model simulates like the original; sizes and effects, which need the classes, are fixed.
 
     Raises
     ------
     DeclarationError
-        If the file cannot be read, is foreign, of another version, cut or damaged.
+        If the file cannot be read, is not an open DAE, has another version, or is truncated or damaged.
     """
     begun = clock.perf_counter()
-    first, members = archive.read(path)
+    first, members = dae_archive.read(path)
     try:
         reduced, settings = _read(first, members)
         compiled = CompiledModel(reduced, {}, None, declared=settings)
         compiled.parameter_values(None)
     except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError):
-        # The checksums fit: what is wrong was written so.
-        archive.refuse(path, "its content contradicts itself, so that it was not written by export_dae")
+        # The checksums are correct, so the writer produced the inconsistency.
+        dae_archive.refuse(path, "its content is inconsistent, so it was not written by export_dae")
     compiled.seconds["load"] = clock.perf_counter() - begun
     return compiled
 
 
 def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedModel, dict[str, Any]]:
     if tuple(first["operations"]) != NAMES:
-        raise ValueError("the operations are others")
+        raise ValueError("the operations differ from those of this version")
     inside = document(members["model.json"].decode())
     expressions = _expressions(first, members)
 
-    def decode(said: Any) -> Any:
-        return decoded(said, expressions, more)
+    def decode(data: Any) -> Any:
+        return decoded(data, expressions, more)
 
     more: dict[str, dict[str, Any]] = {"FlatEquations": {"eliminated_by": lambda row: (), "repeats": lambda: ()}}
-    root = tree.read(inside["tree"], decode)
+    root = component_tree.decode_tree(inside["tree"], decode)
     if not isinstance(root, Component):
         raise ValueError("there is no model")
     more["FlatModel"] = {"tree": root}
     reduced = decode(inside["model"])
     reduced.flat.parameters.values[:] = decode(inside["values"])
-    return reduced, {name: decode(said) for name, said in inside["settings"].items()}
+    return reduced, {name: decode(data) for name, data in inside["settings"].items()}
 
 
 def _expressions(first: dict[str, Any], members: dict[str, bytes]) -> Reader:

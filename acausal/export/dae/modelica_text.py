@@ -1,4 +1,4 @@
-"""Expressions as text of Modelica, what several share written once."""
+"""Expressions as Modelica text; common subexpressions are written once."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from acausal.export.dae.expressions import NAMES
 from acausal.instructions import READABLE, read_instructions
 from acausal.symbols import scalars, stacked
 
-# Nested deeper, or longer, an expression is given a name: parsers descend a level of calls for each bracket.
+# Depth of nesting and length in characters beyond which a subexpression gets a name: parsers recurse for each bracket.
 DEEP, LONG = 12, 400
 _SAME = ("sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "sqrt")
 _ARCS = ("sin", "cos", "tan")
@@ -55,13 +55,13 @@ _PLAIN = re.compile(r"[^0-9A-Za-z_!#$%&()*+,\-./:;<>=?@\[\]^{}|~ ]")
 
 
 class Names:
-    """Quoted names of Modelica, each once."""
+    """Unique quoted names of Modelica."""
 
     def __init__(self) -> None:
         self._taken: set[str] = set()
 
     def __call__(self, name: str) -> str:
-        """Return a name for something that is called like this."""
+        """Return a unique name derived from the given one."""
         plain = _PLAIN.sub("_", name) or "_"
         found, k = plain, 1
         while found in self._taken:
@@ -80,8 +80,8 @@ def number(value: float) -> str:
     return repr(float(value)) if value >= 0 else f"({float(value)!r})"
 
 
-def written(expressions: ca.SX, known: Mapping[int, str], names: Names) -> tuple[list[str], list[tuple[str, str]]]:
-    """Return the text of each expression, and names with texts of what they share.
+def modelica(expressions: ca.SX, known: Mapping[int, str], names: Names) -> tuple[list[str], list[tuple[str, str]]]:
+    """Return the text of each expression, and names with texts of their common subexpressions.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def written(expressions: ca.SX, known: Mapping[int, str], names: Names) -> tuple
     known : mapping of int to str
         Texts of symbols by their hashes.
     names : Names
-        Names that are taken.
+        The names in use.
 
     Raises
     ------
@@ -122,16 +122,16 @@ def written(expressions: ca.SX, known: Mapping[int, str], names: Names) -> tuple
 def _form(op: int, arguments: Sequence[str]) -> str:
     name = NAMES[KIND[op]] if op in KIND else ""
     if name not in FORMS:
-        raise ExportError(f"the model holds an operation that Modelica does not have: {name or op}.")
+        raise ExportError(f"the model contains an operation that Modelica does not have: {name or op}.")
     return FORMS[name].format(*arguments)
 
 
 def texts(column: Sequence[str], sizes: Sequence[int]) -> list[list[str]]:
-    """Return parts of a list, of some sizes."""
+    """Split a list into parts of the given sizes."""
     ends = np.cumsum(sizes).tolist()
     return [list(column[end - n : end]) for end, n in zip(ends, sizes, strict=True)]
 
 
 def hashed(symbols: ca.SX, texts: Sequence[str]) -> dict[int, str]:
-    """Return texts of symbols by their hashes."""
+    """Return the texts of symbols by their hashes."""
     return {s.element_hash(): text for s, text in zip(scalars(symbols), texts, strict=True)}

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.flatten.discontinuities import Promise
 from acausal.policy import POLICY
 from acausal.solve.checks.validity import Watch, watch
@@ -57,7 +57,7 @@ class _Look:
         return solver.problem.each(self.seen.function, solver(rows, self.seen.wanted)[0])
 
 
-@once
+@memoized
 def _known(compiled: CompiledModel) -> Watch:
     """Promises of what the equations hold; a derivative that no equation has cannot be evaluated."""
     r = compiled.reduced

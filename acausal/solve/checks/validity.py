@@ -9,9 +9,9 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.compiler.requirements import Stated, refuse, statements
-from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.vectorized import Vectorized
 from acausal.errors import InitializationError
 from acausal.flatten.opaque_calls import refuse_undeclared
 from acausal.language.functions import initial, time
@@ -31,7 +31,7 @@ class Watch:
     """Statements of a compiled model, and the function of them."""
 
     stated: list[Any]
-    function: Rowwise
+    function: Vectorized
     wanted: frozenset[int]
 
 
@@ -47,28 +47,28 @@ def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> W
             origin = stated[k * len(stated) // len(entries)][1]
             refuse_undeclared(r.resolve(entry), [*arguments, initial.sx], f"{origin}: ")
         raise
-    return Watch(stated, Rowwise(function), frozenset(compiled.dependence.inside(column)))
+    return Watch(stated, Vectorized(function), frozenset(compiled.dependence.inside(column)))
 
 
-@once
+@memoized
 def _validity(compiled: CompiledModel) -> list[Stated]:
     return statements(compiled.tree, "validity", (Expectation, Separation))
 
 
-@once
+@memoized
 def separations(compiled: CompiledModel) -> Watch:
     """What must not meet in a run: rate, effect and offset of each, in turn."""
     stated = [item for item in _validity(compiled) if isinstance(item[0], Separation)]
     return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)])
 
 
-@once
+@memoized
 def _expectations(compiled: CompiledModel) -> Watch:
     stated = [item for item in _validity(compiled) if isinstance(item[0], Expectation)]
     return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.part, s.whole)])
 
 
-@once
+@memoized
 def _at_start(compiled: CompiledModel) -> Watch:
     stated = compiled.requirements.at_start
     return watch(compiled, stated, [r.sx for r, _ in stated])

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.compiler.guards import Guards
+from acausal.compiler.event_conditions import EventConditions
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.points import Point
@@ -39,14 +39,14 @@ class Agenda:
         Output times, and breaks.
     """
 
-    def __init__(self, guards: Guards, p: np.ndarray, times: np.ndarray) -> None:
+    def __init__(self, guards: EventConditions, p: np.ndarray, times: np.ndarray) -> None:
         self.guards, self.p, self.times = guards, p, times
         ends = float(times[0]), float(times[-1])
         self.near = part_of_time(POLICY.agenda.apart, *ends) * max(map(abs, ends))
         self.added = part_of_time(POLICY.agenda.added, *ends)
         self._timed = np.array(guards.timed, dtype=int)
         self._is_switch = self._timed < guards.n_switches
-        self._plans = bool(guards.planned.function.numel_out(0))
+        self._plans = bool(guards.scheduled.function.numel_out(0))
 
     def on(self, time: float, near: float = 0.0) -> np.ndarray:
         """Which timed guards hold at a time; comparisons that would be 0 within the span `near` are 0."""
@@ -106,7 +106,7 @@ class Agenda:
         """
         if not self._plans:
             return None
-        instants = self.guards.planned(self.p, at.constants.vector)[0]
+        instants = self.guards.scheduled(self.p, at.constants.vector)[0]
         ahead = instants[np.isfinite(instants) & (instants > since)]
         if not len(ahead):
             return None
@@ -136,7 +136,7 @@ class Agenda:
         """Which watched conditions hold where they are 0; where a planned comparison just changes, that tells."""
         found = {k: self.guards.guards[k].inclusive for k in self.guards.watched}
         for (k, inclusive), instant in zip(
-            self.guards.plans, self.guards.planned(self.p, at.constants.vector)[0], strict=True
+            self.guards.scheduled_guards, self.guards.scheduled(self.p, at.constants.vector)[0], strict=True
         ):
             if abs(instant - at.time) <= 2 * self.reach(at.time):
                 found[k] = inclusive

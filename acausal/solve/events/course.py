@@ -90,7 +90,7 @@ class Course:
     def idle(self) -> list[str]:
         """Name statements that hold after the start, and whose condition nothing but they themselves makes false again."""
         at = self.first
-        held = [] if at is None else [k for k in self.guards.lone if at.truth[self.guards.watched.index(k)]]
+        held = [] if at is None else [k for k in self.guards.self_scheduling if at.truth[self.guards.watched.index(k)]]
         return [
             f"{self.guards.guards[k].origin}: the condition holds after the start, t = {self.times[0]:g} s, and acts where it "
             "becomes true: it never does, as nothing else moves its instant. Give that a start= after the start time, "

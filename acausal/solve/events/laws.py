@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler.constants import Constants
-from acausal.compiler.set_valued import MODE, OFFSET, SHARE, SHARED, SLIP, LawValues
+from acausal.compiler.set_valued_laws import MODE, OFFSET, SHARE, SHARED, SLIP, LawValues
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.events.shares import shares

@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import laws_of_time
-from acausal.compiler.once import latest
+from acausal.compiler.memo import memoized_latest
 from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator
@@ -64,7 +64,7 @@ def _short_cases(problem: Problem, at: Point, end: float, run: float) -> np.ndar
     return inside[short[:-1] | short[1:]]
 
 
-@latest(8)  # segments of a run
+@memoized_latest(8)  # segments of a run
 def _found(compiled: CompiledModel, moves: bool, parts: int, numbers: bytes) -> tuple[float, ...]:
     """Return the same for ends of a segment in so many parts, parameters and constants, given as bytes."""
     laws = laws_of_time(compiled, moves)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.compiler.once import making
+from acausal.compiler.memo import memo_seconds
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
@@ -183,14 +183,14 @@ class Integrator:
             parts, way = parts * more, way.shared(more)
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         request = Request(self.problem, self.settings, way, at, times, works, self.rounding(at))
-        started, made = clock.perf_counter(), making(c)
+        started, made = clock.perf_counter(), memo_seconds(c)
         try:
             integration = METHODS[way.method].prepare(request)
         except RuntimeError:
             # An entry of the Jacobian that is 0 everywhere leaves an unknown undetermined.
             return Refusal(Kind.UNSOLVABLE, at.time)
         finally:
-            self.trace.building += clock.perf_counter() - started - (making(c) - made)
+            self.trace.building += clock.perf_counter() - started - (memo_seconds(c) - made)
         try:
             found = self._outcome(integration)
             if isinstance(found, Leg):

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.algebraic_newton import NewtonStep
 from acausal.compiler.core_equations import core_square
-from acausal.compiler.once import once
-from acausal.compiler.passes import Pass
+from acausal.compiler.memo import memoized
 from acausal.core import Settler, Square, library
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
@@ -65,14 +65,14 @@ class _Needed:
         return found
 
 
-@once
+@memoized
 def _needed(compiled: CompiledModel, wanted: frozenset[int] | None) -> _Needed:
     """Return what has to be solved for to know some unknowns, all if not given."""
     unknowns, _ = compiled.dependence.needed(range(compiled.nz) if wanted is None else wanted)
     return _solved(compiled, tuple(unknowns.tolist()))
 
 
-@once
+@memoized
 def _solved(compiled: CompiledModel, key: tuple[int, ...]) -> _Needed:
     unknowns, equations = compiled.dependence.needed(key)
     part = part_of(compiled.pattern, compiled.nx + equations, compiled.nx + unknowns)
@@ -125,7 +125,7 @@ class Consistent:
             return found, []
         doubtful: set[int] = set()
         size = self._sizes(rows, self._terms(rows, needed))
-        for step in self.compiled.passes(needed.key):
+        for step in self.compiled.newton_steps(needed.key):
             doubtful |= self._settle(step, size[step.unknowns], found, left)
         wrong = [k for k in sorted(doubtful) if not self.holds(found, k, ROUNDING, needed.equations)]
         return found, [float(rows.times[k]) for k in wrong if not self._alone(rows, k, found)]
@@ -221,7 +221,7 @@ class Consistent:
         """Arguments of such equations."""
         return self.problem.p, rows.constants, rows.x, rows.z, rows.times[:, None]
 
-    def _settle(self, step: Pass, size: np.ndarray, rows: Rows, some: np.ndarray) -> set[int]:
+    def _settle(self, step: NewtonStep, size: np.ndarray, rows: Rows, some: np.ndarray) -> set[int]:
         """Repeat a pass in place in some rows until nothing changes; return those where it did not get there."""
         enough = CONSISTENT.once if step.linear else CONSISTENT.settled
         before, doubtful = np.full(len(rows), np.inf), set()
@@ -236,7 +236,7 @@ class Consistent:
             some = some[change > enough]
         return doubtful
 
-    def _newton(self, step: Pass, rows: Rows) -> np.ndarray:
+    def _newton(self, step: NewtonStep, rows: Rows) -> np.ndarray:
         """One Newton step in every row; nan where the equations are singular."""
         self.evaluations += len(rows)
         found = self.problem.each(step.function, rows)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.vectorized import Vectorized
 from acausal.errors import caution
 from acausal.flatten.opaque_calls import refuse_undeclared
 from acausal.language.functions import time as time_symbol
@@ -66,7 +66,7 @@ class Evaluator:
             refuse_undeclared(resolved, arguments)
             raise
         own = [self.known.values] if self.known else []
-        return Rowwise(function)(rows.x, rows.z, self.solver.problem.p, rows.times[:, None], rows.constants, *own)
+        return Vectorized(function)(rows.x, rows.z, self.solver.problem.p, rows.times[:, None], rows.constants, *own)
 
     def why(self, row: int) -> str:
         """Say which equations have no value at one of the times, "" if all have one."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.policy import POLICY
 from acausal.solve.problem import Problem, rates_of
 
@@ -51,7 +51,7 @@ def smaller_sizes(
     return np.where(wrong, fitting, nominal) if wrong.any() else None
 
 
-@once
+@memoized
 def _undeclared(compiled: CompiledModel) -> tuple[list[np.ndarray], list[tuple[int, int]]]:
     """States without a declared nominal value: those of each unit, and pairs of a coordinate and such a rate."""
     groups: dict[str, list[int]] = {}
@@ -70,7 +70,7 @@ def absolute_sizes(compiled: CompiledModel, nominal: np.ndarray) -> dict[str, fl
     return dict(zip(units, found.tolist(), strict=True))
 
 
-@once
+@memoized
 def _units(compiled: CompiledModel) -> tuple[list[str], np.ndarray]:
     """Units of the states, and which of them each state has."""
     units = list(dict.fromkeys(unit for unit, _ in compiled.sizes))

@@ -7,7 +7,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_equations
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.compiler.runtime import NOTHING, Runtime
 from acausal.core import StoredModel
 from acausal.core.model_file import floats, framed, ints
@@ -44,7 +44,7 @@ def stored(problem: Problem, at: Point, works: bool, moves: bool) -> StoredModel
     )
 
 
-@once
+@memoized
 def runtime_of(compiled: CompiledModel, energies: bool) -> Runtime:
     """Return the run-time object of a model; its parameters are those of the model, then nominal values."""
     nominal = ca.SX.sym("nominal", compiled.nx + compiled.nz)
@@ -54,11 +54,11 @@ def runtime_of(compiled: CompiledModel, energies: bool) -> Runtime:
     )
 
 
-@once
+@memoized
 def _sections(compiled: CompiledModel, energies: bool) -> dict[str, bytes]:
     """Sections that do not change from run to run."""
     runtime, guards, c = runtime_of(compiled, energies), compiled.guards, compiled
-    instants = guards.planned.function(c.reduced.p, c.reduced.constants)
+    instants = guards.scheduled.function(c.reduced.p, c.reduced.constants)
     counts = guards.n_switches, guards.n_discretes, len(c.constraints.closures)
     nothing = runtime.tape(NOTHING)
     return {

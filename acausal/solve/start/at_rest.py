@@ -10,7 +10,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
-from acausal.compiler.once import latest, once
+from acausal.compiler.memo import memoized, memoized_latest
 from acausal.compiler.rounding import terms
 from acausal.policy import POLICY
 from acausal.solve.points import Point
@@ -22,7 +22,7 @@ from acausal.symbols import scalars, stacked
 NEWTON = POLICY.newton
 
 
-@once
+@memoized
 def meters(compiled: CompiledModel) -> list[int]:
     """States on which nothing depends, and whose rates are not differentiated: counters that hold nothing."""
     r, system = compiled.reduced, compiled.reduced.plan.system
@@ -31,7 +31,7 @@ def meters(compiled: CompiledModel) -> list[int]:
     return np.flatnonzero(~used & np.array(counting, dtype=bool)).tolist() if used.size else []
 
 
-@once
+@memoized
 def kinematic(compiled: CompiledModel, drifts: bool = False) -> list[int]:
     """States whose rates follow from other states without any parameter, as the position of a free body does.
 
@@ -140,7 +140,7 @@ def _unsure(problem: Problem, at: Point) -> np.ndarray:
     return np.nan_to_num(np.max(np.abs(solve(_rounding(J, at.y)[:, None] * signs)), axis=1))
 
 
-@once
+@memoized
 def derivatives(
     compiled: CompiledModel,
 ) -> tuple[list[str], Call, tuple[np.ndarray, np.ndarray, tuple[int, int]], list[int]]:
@@ -159,7 +159,7 @@ def derivatives(
     return names, call, (rows, columns, J.shape), [v for v, _ in pairs]
 
 
-@latest(2)
+@memoized_latest(2)
 def _terms(compiled: CompiledModel, rows: tuple[int, ...]) -> tuple[Call, tuple[np.ndarray, np.ndarray]]:
     """Sizes of what adds up in some rows of the Jacobian of the derivatives, and their places, see `rounding.terms`."""
     J = derivatives(compiled)[1].function.call(compiled.arguments)[1]

@@ -6,18 +6,18 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.language.functions import initial as initial_flag
 from acausal.symbols import scalars
 
 
-@once
+@memoized
 def flag_matters(compiled: CompiledModel) -> bool:
     """Whether equations differ while the initial system holds."""
     return any(ca.which_depends(ca.vertcat(compiled.reduced.ode, compiled.reduced.alg), initial_flag.sx, 1, True))
 
 
-@once
+@memoized
 def giving(compiled: CompiledModel) -> dict[int, int]:
     """Conditions that give one state by themselves, counted from the first algebraic equation, and that state."""
     J, nx, nz = compiled.pattern, compiled.nx, compiled.nz
@@ -32,21 +32,21 @@ def giving(compiled: CompiledModel) -> dict[int, int]:
     }
 
 
-@once
+@memoized
 def lasting(compiled: CompiledModel) -> frozenset[int]:
     """Conditions, counted from the first algebraic equation, that say something in equilibrium, where those of a start do not."""
     said = scalars(ca.substitute(compiled.conditions, initial_flag.sx, 0))
     return frozenset(compiled.nz + k for k, entry in enumerate(said) if not entry.is_constant())
 
 
-@once
+@memoized
 def soft(compiled: CompiledModel) -> frozenset[int]:
     """Conditions, counted from the first algebraic equation, that closed loops override."""
     conditions = compiled.reduced.flat.equations.initial
     return frozenset(compiled.nz + k for k, condition in enumerate(conditions) if condition.soft)
 
 
-@once
+@memoized
 def _curved(compiled: CompiledModel) -> list[bool]:
     """Which conditions are not linear in the unknowns."""
     return ca.which_depends(compiled.conditions, ca.vertcat(compiled.reduced.x, compiled.reduced.z), 2, True)

@@ -14,7 +14,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.policy import POLICY
 from acausal.solve.dependent import said_twice
 from acausal.solve.parts import Part, part_of
@@ -64,7 +64,7 @@ def _pivots_hold(J: scipy.sparse.csc_matrix) -> bool:
     return bool(np.all(np.abs(factors.U.diagonal()) > ROUNDING * terms))
 
 
-@once
+@memoized
 def _inner(compiled: CompiledModel) -> Part:
     unknowns = np.arange(compiled.nx, compiled.nx + compiled.nz)
     return part_of(compiled.pattern, unknowns, unknowns)

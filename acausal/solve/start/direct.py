@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.local import Local
-from acausal.compiler.once import once
+from acausal.compiler.linearization import PointLinearization
+from acausal.compiler.memo import memoized
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 
 
-def with_direct(problem: Problem, direct: np.ndarray, at: Point, local: Local) -> Point:
+def with_direct(problem: Problem, direct: np.ndarray, at: Point, local: PointLinearization) -> Point:
     """Give states the values that conditions state for them, see `InitialSystem.given`; `local` is the initial system there."""
     rows, states = direct[0] + problem.nx, direct[1]
     x = at.x.copy()
@@ -21,7 +21,7 @@ def with_direct(problem: Problem, direct: np.ndarray, at: Point, local: Local) -
     return replace(at, x=x)
 
 
-@once
+@memoized
 def _last_entries(compiled: CompiledModel) -> np.ndarray:
     """Place of the last entry of each row of the Jacobian; of the only one in the rows of conditions that give a state."""
     J = compiled.pattern

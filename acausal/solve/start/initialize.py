@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.local import Local
-from acausal.compiler.once import latest
+from acausal.compiler.linearization import PointLinearization
+from acausal.compiler.memo import memoized_latest
 from acausal.compiler.report import AtStart
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
@@ -130,7 +130,7 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady), turns)
 
 
-def _told(problem: Problem, at: Point, local: Local) -> Local:
+def _told(problem: Problem, at: Point, local: PointLinearization) -> PointLinearization:
     """Return the equations where they tell which unknowns the conditions depend on: with algebraic unknowns that are solved.
 
     A velocity that a condition resolves in the world depends on that of the body by the orientation.
@@ -214,7 +214,7 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
     return problem.completed(at), redundancy, direct
 
 
-def _system(problem: Problem, local: Local, initial: str) -> InitialSystem:
+def _system(problem: Problem, local: PointLinearization, initial: str) -> InitialSystem:
     """Choose conditions, from the pattern of the equations, in each of which those unknowns come first that it depends on most.
 
     A condition on a velocity then determines a velocity, although it also holds the orientation.
@@ -225,7 +225,7 @@ def _system(problem: Problem, local: Local, initial: str) -> InitialSystem:
     return _chosen(problem.compiled, initial, order.tobytes())
 
 
-@latest(1)
+@memoized_latest(1)
 def _chosen(compiled: CompiledModel, initial: str, order: bytes) -> InitialSystem:
     """Choose conditions; `order` is that of the entries of the Jacobian, row by row."""
     nx, nz = compiled.nx, compiled.nz

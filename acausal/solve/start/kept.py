@@ -14,7 +14,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.policy import POLICY
 from acausal.solve.parts import Part
 from acausal.solve.points import Point
@@ -135,13 +135,13 @@ def kept_again(held: Held) -> Constants:
     return replace(constants, closures=closures)
 
 
-@once
+@memoized
 def droppable(compiled: CompiledModel) -> np.ndarray:
     """Which closures may be dropped: those on which a flow works."""
     return np.array([not closure.dual.is_constant() for closure in compiled.reduced.flat.loops.closures], dtype=bool)
 
 
-@once
+@memoized
 def closure_of(compiled: CompiledModel) -> np.ndarray:
     """Closure of each residual of the constraints, -1 where none may be dropped."""
     c = compiled.constraints

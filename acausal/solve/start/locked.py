@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.language.functions import time
 from acausal.policy import POLICY
 from acausal.solve.points import Point
@@ -56,7 +56,7 @@ def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
     return found
 
 
-@once
+@memoized
 def _driven(compiled: CompiledModel) -> np.ndarray:
     """Which residuals of the constraints depend on time."""
     return np.array(ca.which_depends(compiled.reduced.running.constraints, time.sx, 1, True), dtype=bool)

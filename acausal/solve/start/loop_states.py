@@ -10,7 +10,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.policy import POLICY
 from acausal.solve.parts import Part
 from acausal.solve.points import Point, Rows
@@ -118,7 +118,7 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
     return stiffness
 
 
-@once
+@memoized
 def _unprojected(compiled: CompiledModel) -> Elimination:
     """What is left of the derivatives of the rates by their coordinates, see `_stiffness`."""
     plan, c, nx = compiled.reduced.plan, compiled.constraints, compiled.nx

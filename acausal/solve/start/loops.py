@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.errors import InitializationError
 from acausal.flatten.component_tree import walk
 from acausal.language.component import Component
@@ -23,7 +23,7 @@ from acausal.solve.start.rank import least_norm
 LOOPS = POLICY.loops
 
 
-@once
+@memoized
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
     """Residuals and states of each level of the constraints, positions first."""
     c = compiled.constraints

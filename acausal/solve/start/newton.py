@@ -10,8 +10,8 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.local import Local
-from acausal.compiler.once import once
+from acausal.compiler.linearization import PointLinearization
+from acausal.compiler.memo import memoized
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, part_of
@@ -170,7 +170,7 @@ def _by_parts(problem: Problem, at: Point) -> Point | None:
     At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
     each of them alone. In one matrix that is d^4, which is less than rounding.
     """
-    for step in problem.compiled.passes(tuple(range(problem.nz))):
+    for step in problem.compiled.newton_steps(tuple(range(problem.nz))):
         for _ in range(1 if step.linear else NEWTON.iterations):
             z, own = at.z.copy(), step.unknowns
             z[own] = problem.each(step.function, Rows.of(at))[0]
@@ -183,22 +183,22 @@ def _by_parts(problem: Problem, at: Point) -> Point | None:
     return at if np.all(solved) else None
 
 
-@once
+@memoized
 def _algebraic(compiled: CompiledModel) -> InitialSystem:
     return InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(compiled.nx))
 
 
-def rounding(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def rounding(local: PointLinearization, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
     return NEWTON.terms * np.finfo(float).eps * reach(local, y, nominal)
 
 
-def reach(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def reach(local: PointLinearization, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the change in each row by unknowns of their present and nominal sizes together."""
     return local.magnitudes(np.abs(y) + nominal)
 
 
-def terms(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def terms(local: PointLinearization, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the size of the terms of each row, and at least that of its smallest one at nominal values."""
     size, J = local.terms(nominal), local.pattern
     least = np.full(J.shape[0], np.inf)

@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.whole import EVENT, Row, whole
+from acausal.compiler.full_residuals import EVENT, Row, full_residuals
 from acausal.flatten.component_tree import join, walk
 from acausal.flatten.origin import Origin, value_origin
 from acausal.language.fields import Variable
@@ -52,7 +52,7 @@ def no_numbers(problem: Problem, at: Point) -> str:
             remedies[remedy(problem, there, [row], operand)] = None
     conditions = dict.fromkeys(
         f"  {row.origin}"
-        for row in whole(problem.compiled).rows
+        for row in full_residuals(problem.compiled).rows
         if row.kind == EVENT and any(s.element_hash() in by_symbol for s in ca.symvar(row.expression))
     )
     head = f"at t = {at.time:.6g} s {'this start value is' if len(lines) == 1 else 'these start values are'} no number:"

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, part_of, parts, parts_of
 from acausal.solve.points import Point
@@ -61,7 +61,7 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     return Redundancy(tuple(sorted(dropped)), singular)
 
 
-@once
+@memoized
 def lowest(compiled: CompiledModel) -> tuple[Part, list[Part]]:
     """Return the constraints at their lowest levels, and the parts of these that share no coordinates."""
     c = compiled.constraints

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
@@ -102,7 +102,7 @@ def cyclic(problem: Problem, at: Point) -> list[np.ndarray]:
     return [*(space for space in found if space.size), by_time]
 
 
-@once
+@memoized
 def _candidates(compiled: CompiledModel) -> np.ndarray:
     """States that may be cyclic: coordinates, whose rates are differentiated or follow from other states alone."""
     system = compiled.reduced.plan.system

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.set_valued import MODE, SHARED
-from acausal.compiler.whole import EQUATION, START
+from acausal.compiler.full_residuals import EQUATION, START
+from acausal.compiler.set_valued_laws import MODE, SHARED
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, without_value
@@ -109,8 +109,8 @@ def _found(problem: Problem, at: Point, head: np.ndarray) -> np.ndarray:
     """Return the switches and discrete variables that follow from values; what the clock decides stays as in `head`."""
     guards = problem.compiled.guards
     found = guards.start(at.x, at.z, problem.p, at.time, at.constants.vector)[0].copy()
-    by_clock = [k for k in guards.timed if k < guards.n_switches]
-    found[by_clock] = head[by_clock]
+    time_comparisons = [k for k in guards.timed if k < guards.n_switches]
+    found[time_comparisons] = head[time_comparisons]
     return found
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.memo import memoized
 from acausal.policy import POLICY
 from acausal.solve.parts import Part, Places, part_of
 from acausal.solve.points import Point
@@ -96,7 +96,7 @@ class Elimination:
         return scipy.sparse.linalg.splu(self.inner.sparse(entries)).solve
 
 
-@once
+@memoized
 def of_states(compiled: CompiledModel) -> Elimination:
     """What is left of the derivatives of the states by the states: their matrix A = f_x - f_z g_z^-1 g_x."""
     x, z = np.split(np.arange(compiled.nx + compiled.nz), [compiled.nx])

@@ -1,4 +1,5 @@
-"""Studies of effects: each is set otherwise, and what that changes and costs is told.
+"""Studies of effects: switch each effect, and report what that changes and costs.
 
-listing <- rows <- variants, cheapest <- tables <- result <- file, effects.
+Modules in the order of imports: listing, effect_rows, variants and cheapest, effect_tables, effects_result, choices_file
+and effects.
 """

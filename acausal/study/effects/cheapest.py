@@ -1,11 +1,11 @@
-"""The cheapest set of effects that stays within an accuracy: greedy, each step verified by a simulation."""
+"""The cheapest set of effects within an accuracy: greedy search, each step verified by a simulation."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import Any
 
-from acausal.study.effects.rows import EffectRow
+from acausal.study.effects.effect_rows import EffectRow
 
 Search = Generator[Mapping[str, Any], EffectRow, EffectRow]
 
@@ -18,23 +18,23 @@ def search(
     accuracy: float,
     fits: Callable[[Mapping[str, Any]], dict[str, Any]],
 ) -> Search:
-    """Yield the choices to try, take the row of each, and return the cheapest row.
+    """Search greedily: yield the choices to measure, receive the row of each, and return the cheapest row.
 
-    Begins with the reference and adds one switched effect after the other, the one that saves most first, as long as
-    the outputs stay within the accuracy and the scene becomes cheaper.
+    The search starts at the reference and adds switched effects, the largest saving first, as long as the outputs stay
+    within the accuracy and the scene becomes cheaper.
 
     Parameters
     ----------
     singles : sequence of EffectRow
-        One effect switched each.
+        Rows with one switched effect each.
     reference, standing : EffectRow
-        The reference, and the scene as it stands.
+        The reference, and the scene with its own choices.
     outputs : sequence of str
-        Which outputs must stay within the accuracy.
+        Outputs that must stay within the accuracy.
     accuracy : float
         Largest change as a fraction of an output's range.
     fits : callable
-        Takes choices and returns those whose part exists with the others.
+        Function from choices to those whose part exists together with the others.
     """
 
     def is_good(row: EffectRow) -> bool:
@@ -47,7 +47,7 @@ def search(
         if wanted == best.choices or not single.choices.items() <= wanted.items():
             continue
         tried = single if wanted == single.choices else (yield wanted)
-        # Each step may be slower by what cannot be told; all together must not be.
+        # Noise may hide that a step is slower; compare with the reference too, so that such steps do not add up.
         if is_good(tried) and tried.cheaper(best) and tried.cheaper(reference):
             best = tried
     return standing if is_good(standing) and standing.cheaper(best) else best
@@ -56,23 +56,23 @@ def search(
 def cheapest(
     searches: Mapping[str, Search], measure: Callable[[list[Mapping[str, Any]]], list[EffectRow]]
 ) -> dict[str, EffectRow]:
-    """Carry out searches in parallel and return what each found.
+    """Run searches in parallel and return the result of each.
 
     Parameters
     ----------
     searches : mapping of str to generator
         From `search`, by name.
     measure : callable
-        Returns a row for each of some choices.
+        Function from a list of choices to a row for each.
     """
     found: dict[str, EffectRow] = {}
     answers: dict[str, Any] = dict.fromkeys(searches)
     while answers:
-        asked = {}
+        requests = {}
         for name, answer in answers.items():
             try:
-                asked[name] = searches[name].send(answer)
+                requests[name] = searches[name].send(answer)
             except StopIteration as end:
                 found[name] = end.value
-        answers = dict(zip(asked, measure(list(asked.values())), strict=True))
+        answers = dict(zip(requests, measure(list(requests.values())), strict=True))
     return {name: found[name] for name in searches}

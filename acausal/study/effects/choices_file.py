@@ -1,4 +1,4 @@
-"""Choices of effects in a file: written by a study, taken by a later run of the same scene."""
+"""Files with choices of effects: written by a study, applied to later runs of the same scene."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import unknown_name
 from acausal.language.component import Component
 from acausal.result import document, read_text, shown_name
+from acausal.study.effects.effect_rows import ALL
+from acausal.study.effects.effects_result import Effects
 from acausal.study.effects.listing import effects_of, fitting
-from acausal.study.effects.result import Effects
-from acausal.study.effects.rows import ALL
 
 
 def choices_document(found: Effects, scene: str, settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -24,9 +24,9 @@ def choices_document(found: Effects, scene: str, settings: Mapping[str, Any]) ->
     found : Effects
         The study.
     scene : str
-        Name of the scene, as the command takes it.
+        Name of the scene on the command line.
     settings : mapping of str to value
-        Values by path with which the study was made.
+        Values by path of the study.
     """
     best = found.cheapest[ALL]
     return {
@@ -41,14 +41,14 @@ def choices_document(found: Effects, scene: str, settings: Mapping[str, Any]) ->
 
 
 def with_effects(model: Component, scene: str, path: str | Path, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return settings together with the choices of a file; where both give a value, the settings win.
+    """Merge settings with the choices of a file; settings take precedence.
 
     Parameters
     ----------
     model : Component
         The scene, not compiled.
     scene : str
-        Its name, as the command takes it.
+        Its name on the command line.
     path : str or Path
         The file.
     settings : mapping of str to value
@@ -57,7 +57,7 @@ def with_effects(model: Component, scene: str, path: str | Path, settings: Mappi
     Raises
     ------
     DeclarationError
-        If the file cannot be read, is none of effects, is for another scene, or names effects that the scene lacks.
+        If the file cannot be read, contains no choices, is for another scene, or names effects that the scene lacks.
     """
     choices = _read(path, scene)
     _check_names(model, choices, path)
@@ -77,7 +77,7 @@ def _read(path: str | Path, scene: str) -> dict[str, Any]:
         raise DeclarationError(
             f"{shown_name(path)} contains no choices of effects; `acausal effects {scene} --apply {path}` writes such a file."
         )
-    # The location of the user's file may change, and the directory from which it is named.
+    # Compare file names alone: the user's file may have been moved, or named from another directory.
     if PurePath(str(found["scene"])).name != PurePath(scene).name:
         raise DeclarationError(
             f"{shown_name(path)} is for the scene {found['scene']}, not for {scene}; `acausal effects {scene} --apply FILE.json` "

@@ -1,4 +1,4 @@
-"""effects(): what each effect of a scene changes and costs, and the cheapest set within an accuracy."""
+"""effects(): changes and costs of each effect of a scene, and the cheapest set of effects within an accuracy."""
 
 from __future__ import annotations
 
@@ -9,29 +9,29 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler import compile, model_of, values_of
+from acausal.compiler import checked_model, checked_values, compile
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.data import same
 from acausal.policy import POLICY
-from acausal.simulation.asked import check_choice
+from acausal.simulation.settings_checks import check_choice
 from acausal.study.effects.cheapest import cheapest, search
+from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, interaction, row
+from acausal.study.effects.effects_result import Effects
 from acausal.study.effects.listing import Effect, fullest
-from acausal.study.effects.result import Effects
-from acausal.study.effects.rows import ALL, EffectRow, Interaction, interaction, row
 from acausal.study.effects.variants import Choices, Variants
-from acausal.study.measuring.arguments import (
+from acausal.study.measuring.case import Case, Job, Measurement
+from acausal.study.measuring.model_pickling import pack
+from acausal.study.measuring.pool import executor_of
+from acausal.study.measuring.session import Progress
+from acausal.study.measuring.study_arguments import (
     check_counts,
     check_run,
     check_shares,
     outputs_of,
     stop_time_of,
 )
-from acausal.study.measuring.case import Case, Job, Measurement
-from acausal.study.measuring.pool import executor_of
-from acausal.study.measuring.session import Progress
-from acausal.study.measuring.shipping import pack
 
 
 @checked_arguments
@@ -53,26 +53,26 @@ def effects(
     executor: Executor | str | None = None,
     progress: Progress | None = None,
 ) -> Effects:
-    """Find what each effect of a scene changes and costs, and the cheapest set of effects within an accuracy.
+    """Measure what each effect of a scene changes and costs, and find the cheapest set of effects within an accuracy.
 
-    The reference is the fullest scene: every effect at its most complete choice. Each effect is switched alone, then
-    pairs of those that matter or save time, and the cheapest set is built from those that may go, each step of it
+    The reference is the fullest scene: every effect at its most complete choice. Each effect is switched alone, then in
+    pairs with others that matter or save time. The cheapest set is built greedily from single effects, and each step is
     verified by a simulation.
 
     Parameters
     ----------
     model : Component
-        A model that is not compiled.
+        A model, not compiled.
     stop_time : float, optional
         In s; that of the model if not given.
     accuracy : float
         Largest change of the outputs that the cheapest set may make, as a fraction of their ranges.
     tolerance, initial, method
-        As of `simulate`.
+        As in `simulate`.
     intervals : int
         Outputs are compared at intervals + 1 equidistant times.
     outputs : sequence of str, optional
-        Paths, or patterns with * and ?, of what to compare; the outputs of the model if not given.
+        Paths, or patterns with * and ?, of the quantities to compare; the outputs of the model if not given.
     parameters : mapping of str to value, optional
         Values by path for all runs.
     repeats : int
@@ -80,27 +80,27 @@ def effects(
     limit : float
         Seconds after which a run is stopped.
     pairs : int
-        How many pairs are tried at most, those first whose effects change most.
+        Largest number of pairs to try, those with the largest changes first.
     workers : int, optional
         Parallel processes; one per core if not given.
     executor : Executor or str, optional
-        Where to run instead: an executor of the kind of concurrent.futures, or the address of a Dask scheduler.
+        Where to run instead: an executor as in concurrent.futures, or the address of a Dask scheduler.
     progress : callable, optional
-        Called with the number of runs that are done, of all that are known to be needed, and what is going on.
+        Called with the number of runs done, the number of runs known so far, and the current stage.
 
     Returns
     -------
     Effects
-        With rows, interactions, the cheapest sets, and tables of them.
+        Rows, interactions and cheapest sets, with tables.
 
     Raises
     ------
     DeclarationError
-        If the model is wrong, has no effects, or nothing that could be compared.
+        If the model is wrong, has no effects, or no outputs to compare.
     SimulationError
-        If neither the fullest scene nor the scene as it stands can be integrated.
+        If neither the fullest scene nor the scene itself can be integrated.
     """
-    model, given = model_of(model), values_of(parameters)
+    model, given = checked_model(model), checked_values(parameters)
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_counts(0, pairs=pairs)
@@ -124,7 +124,7 @@ def effects(
 
 
 class _Study:
-    """The course of one study, from the reference to the cheapest sets."""
+    """One study of effects, from the reference to the cheapest sets."""
 
     def __init__(self, variants: Variants, found: tuple[Effect, ...], full: Choices, accuracy: float) -> None:
         self.variants, self.effects, self.accuracy = variants, found, accuracy
@@ -141,7 +141,7 @@ class _Study:
         self.standing = row(self._difference({}), stands_run, self.reference)
 
     def result(self, pairs: int) -> Effects:
-        """Switch effects, pairs of them, and find the cheapest sets."""
+        """Measure single effects and pairs, and find the cheapest sets."""
         singles, idle = self._singles()
         rows = self._rows(singles, "effects")
         fine = self.variants.measure([self.base], "integration error", self.tolerance / POLICY.study.tighter)
@@ -166,11 +166,11 @@ class _Study:
         )
 
     def _in_force(self, paths: Choices) -> dict[str, Any]:
-        """The choices of the scene as it stands."""
+        """Return the scene's own choices of these effects."""
         return {effect.path: effect.value for effect in self.effects if effect.path in paths}
 
     def _difference(self, choices: Choices) -> dict[str, Any]:
-        """Choices that a variant makes other than the reference, of effects that both have."""
+        """Return the choices of a variant that differ from the reference, of effects that both have."""
         return {
             effect.path: value
             for effect in self.effects
@@ -179,7 +179,7 @@ class _Study:
         }
 
     def _singles(self) -> tuple[list[Choices], list[Choices]]:
-        """Each effect switched to each other choice: those that change the equations, and those that do not."""
+        """Return single switches: those that change the equations, and those that leave them as they are."""
         wanted: list[Choices] = [
             {effect.path: choice}
             for effect in self.effects
@@ -200,12 +200,12 @@ class _Study:
         found = self._measured(wanted, what)
         return [row(choices, run, self.reference) for choices, run in zip(wanted, found, strict=True)]
 
-    def _fits(self, choices: Choices) -> dict[str, Any]:
+    def _existing(self, choices: Choices) -> dict[str, Any]:
         there = self.variants.fitting(self._with(choices))
         return {path: value for path, value in choices.items() if path in there}
 
     def _pairs(self, rows: Sequence[EffectRow], most: int) -> tuple[list[Interaction], int]:
-        """Pairs of effects that matter or save time, as many as wanted; and how many were left out."""
+        """Measure pairs of effects that matter or save time; return interactions and the number of untried pairs."""
         counts = [
             r
             for r in rows
@@ -216,7 +216,7 @@ class _Study:
         ways = [
             (a, b)
             for a, b in combinations(sorted(counts, key=lambda r: -r.change()), 2)
-            if a.choices.keys() != b.choices.keys() and len(self._fits({**a.choices, **b.choices})) == 2
+            if a.choices.keys() != b.choices.keys() and len(self._existing({**a.choices, **b.choices})) == 2
         ]
         ways.sort(key=lambda pair: -min(r.change() for r in pair))
         tried, left = ways[:most], max(0, len(ways) - most)
@@ -230,26 +230,26 @@ class _Study:
         return found, left
 
     def _cheapest(self, rows: Sequence[EffectRow]) -> dict[str, EffectRow]:
-        """The cheapest set for all outputs together, and for each alone."""
+        """Return the cheapest set for all outputs together, and for each alone."""
         names = list(self.reference.values)
         targets = {ALL: names} | ({name: [name] for name in names} if len(names) > 1 else {})
         return cheapest(
             {
-                name: search(rows, self.origin, self.standing, outputs, self.accuracy, self._fits)
+                name: search(rows, self.origin, self.standing, outputs, self.accuracy, self._existing)
                 for name, outputs in targets.items()
             },
             lambda wanted: self._rows(wanted, "cheapest sets"),
         )
 
     def _choices(self, choices: Choices, idle: Sequence[Choices]) -> dict[str, Any]:
-        """Every choice of a set by path, but for effects that the scene does not call for and that are as they stand."""
-        there = self._fits(self._with(choices))
+        """Return all choices of a set by path, without idle effects at the scene's own choice."""
+        there = self._existing(self._with(choices))
         silent = {path for one in idle for path in one if same(there.get(path), self._in_force(self.base)[path])}
         return {path: value for path, value in there.items() if path not in silent}
 
 
 def _same(one: Measurement, other: Measurement) -> bool:
-    """Return whether two variants have the same equations: one effect leaves nothing of the other."""
+    """Return whether two variants give the same results: then one effect disables the other."""
     return one.operations == other.operations and all(
         np.array_equal(one.values[name], other.values[name]) for name in other.values if name in one.values
     )

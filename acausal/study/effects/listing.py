@@ -1,4 +1,4 @@
-"""The effects of a scene: which there are, what the fullest scene is, and which settings fit together."""
+"""The effects of a scene, its fullest variant, and settings that are compatible."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ class Effect:
     Parameters
     ----------
     path : str
-        Where it is: "crank_bar.axial".
+        Path of the field, such as "crank_bar.axial".
     description : str
-        What it is.
+        Its description.
     value : object
-        The choice in force.
+        The current choice.
     choices : tuple
         All choices, the most complete first.
     tries : tuple
-        The choices that a study tries, the one in force among them, the most complete first.
+        Choices that a study tries, including the current one, the most complete first.
     """
 
     path: str
@@ -41,7 +41,7 @@ class Effect:
 def effects_of(model: Component, settings: Mapping[str, Any] | None = None) -> tuple[Effect, ...]:
     """Return the effects of a model.
 
-    A part whose owner has an effect of the same name takes it from there: the effect is listed once, as the owner's.
+    A part takes an effect from an owner that has one of the same name: the effect is then listed once, as the owner's.
 
     Parameters
     ----------
@@ -54,10 +54,9 @@ def effects_of(model: Component, settings: Mapping[str, Any] | None = None) -> t
 
 
 def fullest(model: Component, settings: Mapping[str, Any]) -> tuple[tuple[Effect, ...], dict[str, Any]]:
-    """Return the effects of the fullest scene with what is in force as the scene stands, and its choices by path.
+    """Return the effects of the fullest scene, with the scene's own values, and the choices of the fullest scene by path.
 
-    Every effect takes its most complete choice among those that are tried; effects of parts that only exist then are
-    found on the way.
+    Every effect takes the most complete of its tried choices, which may create parts with further effects.
 
     Parameters
     ----------
@@ -74,7 +73,7 @@ def fullest(model: Component, settings: Mapping[str, Any]) -> tuple[tuple[Effect
         if not new:
             there = {effect.path for effect in listed}
             return tuple(e for p, e in found.items() if p in there), {p: v for p, v in chosen.items() if p in there}
-        # What a part has is known once the effects of its owner are chosen.
+        # The effects of a part are known only after those of its owner are chosen.
         top = min(_depth(effect.path) for effect in new)
         for effect in new:
             if _depth(effect.path) == top:
@@ -83,14 +82,14 @@ def fullest(model: Component, settings: Mapping[str, Any]) -> tuple[tuple[Effect
 
 
 def fitting(model: Component, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return those settings whose part exists in the scene that they make; those of the model itself all stay.
+    """Return the settings whose part exists in the scene they define; settings of the model itself are always kept.
 
     Parameters
     ----------
     model : Component
         The scene.
     settings : mapping of str to value
-        Values by path; {"crank": "rigid", "crank_bar.axial": "none"} loses the second where a rigid bar has no stretch.
+        Values by path; {"crank": "rigid", "crank_bar.axial": "none"} loses the second, as a rigid bar has no stretch.
     """
     kept = {path: value for path, value in settings.items() if not _depth(path)}
     for depth in sorted({_depth(path) for path in settings} - {0}):

@@ -1,4 +1,4 @@
-"""Variants: a scene with some of its effects set otherwise, compiled, compared and measured."""
+"""Variants of a scene: some effects changed; compiled, compared and measured."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from acausal.result.lookup import find
 from acausal.study.effects.listing import fitting
 from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.journal import Journal
+from acausal.study.measuring.model_pickling import unpack
 from acausal.study.measuring.session import Progress, Session
-from acausal.study.measuring.shipping import unpack
 
 Choices = Mapping[str, Any]
 
 
 def fingerprint(job: Job) -> str:
-    """Return what is the same for scenes with the same equations and outputs; "" if the scene cannot be compiled.
+    """Return a hash of the equations and outputs of a scene; "" if it cannot be compiled.
 
     Parameters
     ----------
     job : Job
-        What would be measured.
+        The job of the variant.
     """
     try:
         compiled = compile(unpack(job.model), parameters=job.values)
@@ -42,7 +42,7 @@ def fingerprint(job: Job) -> str:
 
 
 class Variants:
-    """Measures a scene with effects set otherwise; what is known is not measured again.
+    """Measures variants of a scene, each once.
 
     Parameters
     ----------
@@ -51,11 +51,11 @@ class Variants:
     settings : mapping of str to value
         Values that hold in all variants, unless a choice replaces them.
     job : Job
-        How to run; its case gives all but the settings.
+        Template of the jobs; its case gives everything except the settings.
     executor : Executor
-        Where to run.
+        Executor of the runs.
     progress : callable, optional
-        Called with the number of runs that are done, of all that are known to be needed, and what is going on.
+        Called with the number of runs done, the number of runs known so far, and the current stage.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class Variants:
         self.session = Session(job, executor, Journal(None, {}), progress)
 
     def fitting(self, choices: Choices) -> dict[str, Any]:
-        """Return the settings of a variant: those that fit together."""
+        """Return the compatible settings of a variant."""
         return fitting(self.model, {**self.settings, **choices})
 
     def fingerprints(self, wanted: Iterable[Choices]) -> list[str]:
@@ -80,9 +80,9 @@ class Variants:
         wanted : iterable of mapping
             Choices by path.
         what : str
-            What they are for, for the progress.
+            The current stage, for the progress.
         tolerance : float, optional
-            Another one than for the others.
+            A tolerance that replaces that of the job.
         """
         cases = [self._case(choices) for choices in wanted]
         if tolerance is not None:

@@ -1,5 +1,5 @@
-"""Measuring: cases are run in parallel, in processes or on a cluster, and kept in a journal.
+"""Measurement of cases: run in parallel, in processes or on a cluster, and recorded in a journal.
 
-limit, shipping <- run_function <- case <- own_run <- measure <- pool (workers, arguments) <- session (journal); deviation
-stands by itself.
+Modules in the order of imports: limit and model_pickling, run_function, case, own_run, measure, pool (with workers and
+study_arguments), session (with journal); deviation is independent.
 """

@@ -1,4 +1,4 @@
-"""A case of a study, the job that a worker gets of it, and the measurement that comes back."""
+"""A case of a study, its job for a worker, and its measurement."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ import numpy as np
 
 from acausal.language.data import plain
 from acausal.policy import POLICY
+from acausal.study.measuring.model_pickling import pack, unpack
 from acausal.study.measuring.run_function import identity_of
-from acausal.study.measuring.shipping import pack, unpack
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """One way of computing a model.
+    """One way to compute a model.
 
     Parameters
     ----------
     formulation : str
         Name of the formulation, for tables.
     settings : mapping of str to value
-        Structural parameters, effects and parameters by path, as `compile` takes them.
+        Structural parameters, effects and parameters by path, as in `compile`.
     size : str
         Numbers of elements, for tables: "3 + 8".
     tolerance : float
@@ -34,13 +34,13 @@ class Case:
     max_order : int or None
         Limit of the order; None lets `simulate` choose.
     method : str or None
-        As of `simulate`; None is the model's own.
+        As in `simulate`; None is the model's own.
     constraints : str
-        As of `simulate`.
+        As in `simulate`.
     dt : float or None
-        Step in s of a run of the formulation's own, where that is refined instead of the tolerance.
+        Step in s of the formulation's own integrator, if it is refined by its step instead of the tolerance.
     run : callable or None
-        The run of the formulation's own.
+        The formulation's own integrator.
     """
 
     formulation: str = "as given"
@@ -55,31 +55,31 @@ class Case:
 
     @cached_property
     def structure(self) -> str:
-        """Text that is the same for cases that share a compiled model, in every session."""
+        """Text that identifies the compiled model of the case, the same in every session."""
         return json.dumps(plain(self.settings), sort_keys=True)
 
     @cached_property
     def key(self) -> str:
-        """Hash of everything in the case, the same in every session."""
+        """Hash of the whole case, the same in every session."""
         known = {f.name: getattr(self, f.name) for f in fields(self)} | {"run": identity_of(self.run)}
         return hashlib.sha256(json.dumps(plain(known), sort_keys=True).encode()).hexdigest()
 
     @property
     def control(self) -> float:
-        """What is refined: the step in s, or the tolerance."""
+        """The refined quantity: the step in s, or the tolerance."""
         return self.tolerance if self.dt is None else self.dt
 
     @property
     def fineness(self) -> str:
-        """The same for tables and pictures, "dt 1e-04 s" or "1e-04"."""
+        """The refined quantity as text, "dt 1e-04 s" or "1e-04"."""
         return f"{self.tolerance:.0e}" if self.dt is None else f"dt {self.dt:.3g} s"
 
     def refined(self, control: float) -> Case:
         """Return the case with another step, or another tolerance."""
         return replace(self, tolerance=control) if self.dt is None else replace(self, dt=control)
 
-    def told(self) -> Case:
-        """Return a case that is equal to this one, without its settings and its run."""
+    def without_data(self) -> Case:
+        """Return an equal case without settings and run, which are sent separately."""
         found = replace(self, settings={}, run=None)
         vars(found).update(key=self.key, structure=self.structure)
         return found
@@ -99,33 +99,33 @@ class Case:
 
 @dataclass(frozen=True)
 class Job:
-    """What a worker gets: a model, a case and how to run it.
+    """The input of a worker: a model, a case and how to run it.
 
     Parameters
     ----------
     model : bytes
         From `pack`.
     case : Case
-        What to measure.
+        The case.
     stop_time : float
         In s.
     intervals : int
         The run has intervals + 1 points.
     outputs : tuple of str
-        Paths of what to compare; the model's outputs if empty.
+        Paths of the quantities to compare; the model's outputs if empty.
     repeats : int
-        Runs whose median counts; more where they are short, unless it is 1.
+        Number of runs whose median counts; short runs are repeated more often, unless it is 1.
     limit : float
         Seconds after which a run is stopped.
     initial : str, optional
-        As of `simulate`.
+        As in `simulate`.
     home : str
         Module of the class of the model.
     settings : bytes
-        Those of the case, from `pack`: classes of the user's own file among them are those of the model. Empty where the
-        case has them itself.
+        Settings of the case, from `pack`, so that they share classes of the user's file with the model; empty if the case
+        itself holds them.
     run : bytes
-        The run of the formulation's own, from `pack`; empty where there is none.
+        The formulation's own integrator, from `pack`; empty if there is none.
     """
 
     model: bytes
@@ -141,45 +141,45 @@ class Job:
     run: bytes = b""
 
     def of(self, case: Case) -> Job:
-        """Return the job of another case, as it is sent."""
+        """Return the job of another case, ready to be sent."""
         run = pack(case.run, self.home) if case.run else b""
-        return replace(self, case=case.told(), settings=pack(dict(case.settings), self.home), run=run)
+        return replace(self, case=case.without_data(), settings=pack(dict(case.settings), self.home), run=run)
 
     @property
     def values(self) -> Mapping[str, Any]:
-        """Values by path, as `compile` takes them."""
+        """Values by path, as in `compile`."""
         return unpack(self.settings) if self.settings else self.case.settings
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """What a case gave.
+    """The result of a case.
 
     Parameters
     ----------
     case : Case
-        What was run.
+        The case.
     times : array, shape (times,)
-        In s; empty where it failed.
+        In s; empty if the case failed.
     values : mapping of str to array, shape (times,)
-        Scalars by name, entries of arrays apart.
+        Scalars by name; arrays entry by entry.
     compile_seconds : float
-        From the model to the first ready integrator.
+        Seconds from the model to the first ready integrator.
     solve_seconds : float
-        Median of the repeats: initialisation, choice of the order and integration, less the time that other processes had of the
-        processor meanwhile.
+        Median of the repeats: initialisation, choice of the order and integration, without the processor time of other
+        processes.
     steps, factorisations, residual_evaluations : int
-        Of one run.
+        Counts of one run.
     equations : int
         States and algebraic unknowns of the integrated system.
     operations : int
         Instructions of the equations and their Jacobian.
     max_order : int
-        The limit that was used.
+        The limit of the order.
     method, constraints : str
-        What was used.
+        The method, and how loops stayed closed.
     error : str
-        Why there are no values; "" if there are.
+        Why the case failed; "" if it succeeded.
     """
 
     case: Case

@@ -1,4 +1,4 @@
-"""How far values are from a reference, as a fraction of its range."""
+"""Deviations of values from a reference, as a fraction of its range."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ def deviations(
 ) -> dict[str, tuple[float, float]]:
     """Return the largest and the root mean square deviation of each output of the reference, as a fraction of its range.
 
-    Where an output rests, as a fraction of its largest size; where it is 0, as it is.
+    A constant output is compared with its magnitude; an output that is 0, with 1.
 
     Parameters
     ----------
     values, reference : mapping of str to array, shape (times,)
         At the same times.
     ranges : mapping of str to array, optional
-        Values whose ranges count; those of the reference if not given.
+        Values whose ranges are the scales; those of the reference if not given.
     """
     found = {}
     for name, exact in reference.items():
@@ -37,11 +37,11 @@ def worst(
     reference: Mapping[str, np.ndarray],
     ranges: Mapping[str, np.ndarray] | None = None,
 ) -> float:
-    """Return the largest deviation of all outputs.
+    """Return the largest deviation over all outputs.
 
     Parameters
     ----------
     values, reference, ranges : mapping of str to array, shape (times,)
-        As of `deviations`.
+        As in `deviations`.
     """
     return max((most for most, _ in deviations(values, reference, ranges).values()), default=0.0)

@@ -1,4 +1,4 @@
-"""The journal of a study: what was measured, kept on disk at once, so that an interrupted study continues."""
+"""The journal of a study: measurements written to disk at once, so that an interrupted study can continue."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from acausal.result.files import whole
 from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.run_function import files_of
 
-# Under this name a line holds the key of its case.
+# Name of the entry of a line that holds the key of its case.
 POINT = "point"
-# What else a line holds, but for the arrays.
+# Types of the other entries of a line, except the arrays.
 KINDS = {
     f.name: {str: (str,), int: (int,), float: (int, float)}[type(f.default)]
     for f in fields(Measurement)
@@ -40,9 +40,9 @@ class Journal:
     Parameters
     ----------
     path : str, Path or None
-        Name of the file; None keeps nothing.
+        Name of the file; None for no journal.
     identity : mapping
-        What all cases have in common; a journal of another identity is refused.
+        Common data of all cases; a journal of another identity is refused.
     """
 
     def __init__(self, path: str | Path | None, identity: Mapping[str, Any]) -> None:
@@ -56,7 +56,7 @@ class Journal:
             raise ExportError(f"a study cannot keep its cases in {self.path}: it is a device or a pipe; name a file.")
         lines = _lines(self.path) if self.path.exists() else []
         if lines:
-            self._take(lines, dict(identity))
+            self._load(lines, dict(identity))
         else:
             self._write(dict(identity))
 
@@ -64,12 +64,12 @@ class Journal:
         return len(self._found)
 
     def get(self, case: Case) -> Measurement | None:
-        """Return what an earlier session measured.
+        """Return the measurement of an earlier session, None if there is none.
 
         Parameters
         ----------
         case : Case
-            Of this session.
+            A case of this session.
         """
         document = self._found.get(case.key)
         if document is None:
@@ -79,27 +79,27 @@ class Journal:
         return Measurement(**{**given, "case": case, "times": np.array(document["times"]), "values": values})
 
     def add(self, measurement: Measurement) -> None:
-        """Keep a measurement.
+        """Record a measurement.
 
         Parameters
         ----------
         measurement : Measurement
-            Of a case that is not in the journal yet.
+            Measurement of a case that is not in the journal yet.
         """
-        told = {name: getattr(measurement, name) for name in KINDS}
-        document = {POINT: measurement.case.key, **told, "times": measurement.times.tolist()}
+        entries = {name: getattr(measurement, name) for name in KINDS}
+        document = {POINT: measurement.case.key, **entries, "times": measurement.times.tolist()}
         document["values"] = {name: np.asarray(column).tolist() for name, column in measurement.values.items()}
         self._write(document)
 
     def remove(self) -> None:
-        """Remove the file when the study is complete."""
+        """Remove the file of a complete study."""
         if self.path is not None:
             self.path.unlink(missing_ok=True)
 
-    def _take(self, lines: list[str], identity: dict[str, Any]) -> None:
+    def _load(self, lines: list[str], identity: dict[str, Any]) -> None:
         first = _read(lines[0])
         if not isinstance(first, dict) or not first.keys() & identity.keys():
-            raise DeclarationError(_in_the_way(self.path))
+            raise DeclarationError(_foreign_file(self.path))
         other = [name for name in identity if first.get(name) != json.loads(json.dumps(identity[name]))]
         if other:
             raise DeclarationError(
@@ -108,7 +108,7 @@ class Journal:
             )
         found = [line for line in map(_read, lines[1:]) if _is_measurement(line)]
         self._found = {line[POINT]: line for line in found}
-        # A line may be cut where the session was killed: its case is measured again.
+        # A killed session may leave an incomplete line: its case is measured again.
         if len(found) < len(lines) - 1 and self.path is not None:
             with whole(self.path) as file:
                 file.writelines(line + "\n" for line in [lines[0], *map(json.dumps, found)])
@@ -129,10 +129,10 @@ def _lines(path: Path) -> list[str]:
     try:
         return read_text(path).splitlines()
     except DeclarationError as error:
-        raise DeclarationError(_in_the_way(path) if "UTF-8" in str(error) else str(error)) from None
+        raise DeclarationError(_foreign_file(path) if "UTF-8" in str(error) else str(error)) from None
 
 
-def _in_the_way(path: Path | None) -> str:
+def _foreign_file(path: Path | None) -> str:
     return (
         f"{path} is in the way: a study keeps its finished cases in a file of this name, and this one is something else. "
         "Move it, or give the CSV file another name."
@@ -140,45 +140,45 @@ def _in_the_way(path: Path | None) -> str:
 
 
 def identity(model: Component, trees: Iterable[Component], runs: Iterable[Any] = (), **options: Any) -> dict[str, Any]:
-    """Return what distinguishes one study from another: engine, model with its sources, and options of all cases.
+    """Return the identity of a study: version, model with a hash of its sources, and common options.
 
     Parameters
     ----------
     model : Component
-        The model, not built.
+        The model, not instantiated.
     trees : iterable of Component
-        The model built in every formulation.
+        The model instantiated in every formulation.
     runs : iterable of callable or None
-        Runs that formulations bring themselves.
+        Integrators of formulations.
     **options
-        What all cases have in common.
+        Common options of all cases.
     """
     classes = {cls for tree in trees for part in walk(tree) for cls in type(part).__mro__}
     files = {getattr(sys.modules.get(cls.__module__), "__file__", None) for cls in classes}
     files |= {name for run in runs for name in files_of(run)}
     digest = hashlib.sha256()
-    # A script that is typed in, or read from standard input, has the name of a file that there is not.
+    # The file name of a script from a prompt or from standard input does not exist.
     for name in sorted(file for file in files if file and Path(file).is_file()):
         digest.update(Path(name).read_bytes())
     return {
         "version": importlib.metadata.version("acausal"),
         "model": type(model).__qualname__,
         "source": digest.hexdigest(),
-        "values": _given(model),
+        "values": _arguments(model),
         "data": _data(trees),
         **plain(options),
     }
 
 
-def _given(value: Any) -> Any:
-    """What a model was given, parts with what these were given."""
+def _arguments(value: Any) -> Any:
+    """Return the arguments of a model and, recursively, of its parts."""
     if isinstance(value, Component):
-        return {"": type(value).__qualname__, **{name: _given(v) for name, v in sorted(value._values.items())}}
-    return [_given(v) for v in value] if isinstance(value, list | tuple) else plain(value)
+        return {"": type(value).__qualname__, **{name: _arguments(v) for name, v in sorted(value._values.items())}}
+    return [_arguments(v) for v in value] if isinstance(value, list | tuple) else plain(value)
 
 
 def _data(trees: Iterable[Component]) -> dict[str, list[Any]]:
-    """What the models hold of data at each path, also where the name of a file was given for it."""
+    """Return the data objects of the models by path, whether given directly or by a file name."""
     found: dict[str, list[Any]] = {}
     for part in (part for tree in trees for part in walk(tree)):
         for name, declared in part.fields.items():
@@ -196,7 +196,7 @@ def _read(line: str) -> Any:
 
 
 def _is_measurement(line: Any) -> bool:
-    """Return whether a line has everything that a measurement has, each of its kind."""
+    """Return whether a line has all entries of a measurement, each of its type."""
     if not isinstance(line, dict) or line.keys() != {*KINDS, POINT, "times", "values"}:
         return False
     times, values = line["times"], line["values"]

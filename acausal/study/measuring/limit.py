@@ -1,4 +1,4 @@
-"""Stop what takes too long, even inside an integrator."""
+"""Time limit of a run, effective even inside an integrator."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from acausal.policy import POLICY
 
 
 class TooLong(Exception):
-    """The time is over."""
+    """The time limit is exceeded."""
 
 
 @contextmanager
 def stopping_after(seconds: float) -> Iterator[Callable[[float, int], None]]:
-    """Stop the block after some seconds; give a function for `progress` of simulate, which stops it as well.
+    """Stop the block after some seconds; yield a function for `progress` of simulate that checks the limit as well.
 
-    An alarm of the operating system interrupts an integrator; where there is none, or in a thread that is not the main
-    one, the run ends at its next report of progress.
+    An alarm of the operating system interrupts an integrator; without alarms, or outside the main thread, the run ends at
+    its next report of progress.
 
     Parameters
     ----------
     seconds : float
-        How long the block may take.
+        Time limit of the block.
 
     Raises
     ------
     TooLong
-        When the time is over.
+        If the limit is exceeded.
     """
     end = clock.perf_counter() + seconds
     rung = False

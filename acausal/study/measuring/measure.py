@@ -1,4 +1,4 @@
-"""Measure a case in this process: compile it, run it, and report what it costs."""
+"""Measure a case in this process: compile it, run it, and report its cost."""
 
 from __future__ import annotations
 
@@ -19,32 +19,32 @@ from acausal.result import Result
 from acausal.simulation import forget, simulate
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
-from acausal.study.measuring.own_run import take
-from acausal.study.measuring.shipping import unpack
+from acausal.study.measuring.model_pickling import unpack
+from acausal.study.measuring.own_run import run_integrator
 
 KEPT = 2
-# Compiled models of this process, the last used last.
+# Compiled models of this process, the most recently used last.
 _COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
 
 
 @exclusive
 def measure(job: Job) -> Measurement:
-    """Compile and run a case; whatever goes wrong with the model is stored in the measurement.
+    """Compile and run a case; errors of the model are stored in the measurement.
 
     Parameters
     ----------
     job : Job
-        What to run.
+        The job.
     """
     try:
         with stopping_after(job.limit) as show:
             compiled = _compiled(job)
             with warnings.catch_warnings():
-                # A study shows what formulations neglect, and a measurement reports what is not finite.
+                # Warnings about neglected effects are the subject of a study; values that are not finite become errors below.
                 warnings.simplefilter("ignore", AcausalWarning)
                 return _measure(job, compiled, show)
     except TooLong:
-        _COMPILED.clear()  # it was interrupted at an arbitrary place
+        _COMPILED.clear()  # the interrupt may have left a model half evaluated
         return Measurement(job.case, error=f"it was stopped after {job.limit:g} s")
     except AcausalError as error:
         return Measurement(job.case, error=(str(error).splitlines() or [type(error).__name__])[0])
@@ -53,7 +53,7 @@ def measure(job: Job) -> Measurement:
 def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
     result, took = _run(job, compiled, show)
     if took < POLICY.study.little:
-        # Where a run starts is found once, and the first time in a process, or of a model, takes longest.
+        # The first run of a process or a model includes one-time costs; the initial point is cached, so forget it.
         forget(compiled)
         result, took = _run(job, compiled, show)
     stats, seconds = result.stats, [took]
@@ -83,9 +83,9 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
 
 
 def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
-    """Run, and return the solve time less the processor time of other processes meanwhile."""
+    """Run, and return the result and the solve time, scaled by the process's share of the processor."""
     began, busy = clock.perf_counter(), clock.process_time()
-    result, seconds = take(job, compiled, show) if job.run else _simulated(job, compiled, show)
+    result, seconds = run_integrator(job, compiled, show) if job.run else _simulated(job, compiled, show)
     share = (clock.process_time() - busy) / (clock.perf_counter() - began)
     return result, seconds * min(1.0, share)
 
@@ -107,7 +107,7 @@ def _simulated(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, fl
 
 
 def _compiled(job: Job) -> CompiledModel:
-    """Compile a case, or take what another case with the same structure left."""
+    """Return the compiled model of a case, compiling it unless another case with the same structure did."""
     key = (hashlib.sha256(job.model).digest(), job.case.structure)
     found = _COMPILED.pop(key, None) or compile(unpack(job.model), parameters=job.values)
     _COMPILED[key] = found

@@ -1,4 +1,4 @@
-"""Runs that a formulation brings itself, in place of `simulate`: what they are given, and what they must return."""
+"""Runs of a formulation's own integrator in place of `simulate`: its arguments, and checks of its result."""
 
 from __future__ import annotations
 
@@ -16,35 +16,35 @@ from acausal.language.value_checks import shown
 from acausal.result import Result
 from acausal.study.measuring.case import Job
 from acausal.study.measuring.limit import TooLong
-from acausal.study.measuring.shipping import unpack
+from acausal.study.measuring.model_pickling import unpack
 
-# Of an output interval: how far a time may be from the one that was asked for, by rounding.
+# Largest deviation of an output time from the requested one, as a fraction of the output interval: allows round-off.
 AT = 1e-6
 
 
-def take(job: Job, compiled: CompiledModel, show: Callable[[float, int], None]) -> tuple[Result, float]:
-    """Run a case of a formulation with a run of its own.
+def run_integrator(job: Job, compiled: CompiledModel, show: Callable[[float, int], None]) -> tuple[Result, float]:
+    """Run a case by the formulation's own integrator.
 
     Parameters
     ----------
     job : Job
-        With such a run.
+        A job with such an integrator.
     compiled : CompiledModel
         Its model.
     show : callable
-        For the progress, where the run takes that.
+        Progress function, passed on if the integrator takes one.
 
     Returns
     -------
     result : Result
-        At the times of the job.
+        The result at the times of the job.
     seconds : float
-        What the run says that solving took, all that it took if it says nothing.
+        Solve time from the statistics of the result, or else the elapsed time.
 
     Raises
     ------
     AcausalError
-        If it fails, or returns something else.
+        If the integrator fails or returns an invalid result.
     """
     case, what = job.case, f"the run of formulation `{job.case.formulation}`"
     times = job.stop_time * np.linspace(0.0, 1.0, job.intervals + 1)
@@ -62,17 +62,18 @@ def take(job: Job, compiled: CompiledModel, show: Callable[[float, int], None]) 
     took = clock.perf_counter() - began
     if not isinstance(result, Result):
         raise DeclarationError(
-            f"{what} returned {shown(result)}, where a Result is needed, as of simulate or result_of"
+            f"{what} returned {shown(result)}; it must return a Result, as from simulate or result_of"
         )
     if result.time.shape != times.shape or not np.allclose(result.time, times, rtol=0, atol=AT * times[1]):
         ends = f"{result.time.size} times" + (f" up to {result.time[-1]:g} s" if result.time.size else "")
         raise DeclarationError(
-            f"{what} returned {ends}, where those were asked for that it was given: {times.size} up to {times[-1]:g} s"
+            f"{what} returned {ends}; it must return the times that it was given: {times.size} up to {times[-1]:g} s"
         )
     lost = [name for name in job.outputs if name not in result]
     if lost:
         raise DeclarationError(
-            f"{what} returned a result without `{lost[0]}`: it needs all that is compared, see result_of(..., model=model)"
+            f"{what} returned a result without `{lost[0]}`: it must contain all compared outputs, see "
+            "result_of(..., model=model)"
         )
     return result, result.stats.solve_seconds or took
 
@@ -86,6 +87,6 @@ def _takes_progress(run: Any) -> bool:
 
 
 def _place(error: Exception) -> str:
-    """Where an error arose."""
+    """Return the file and line of an error."""
     frames = traceback.extract_tb(error.__traceback__)[1:]
     return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""

@@ -1,4 +1,4 @@
-"""Run the cases of a study in parallel, in processes or on the workers of a cluster."""
+"""Parallel runs of the cases of a study, in processes or on the workers of a cluster."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any
 
 from acausal.errors import DeclarationError, SimulationError
-from acausal.study.measuring.arguments import check_counts
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.measure import measure
+from acausal.study.measuring.study_arguments import check_counts
 from acausal.study.measuring.workers import Workers, initialise, without_main
 
-# Many cases at once on few cores would share threads of linear algebra, and no time would mean anything.
+# One thread each: parallel cases would compete for the threads of linear algebra, and distort the measured times.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
 LOOPBACK = "127.0.0.1"
 
 
 def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
-    """Measure cases and yield each as soon as it is there.
+    """Measure cases and yield each measurement when it is complete.
 
     Parameters
     ----------
     jobs : iterable of Job
-        What to measure.
+        The jobs.
     executor : Executor
-        From `processes` or `cluster`, or another one of the kind of concurrent.futures.
+        From `processes` or `cluster`, or another executor as in concurrent.futures.
     """
     futures: list[Future[Measurement]] = [executor.submit(measure, job) for job in jobs]
     try:
@@ -37,8 +37,8 @@ def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
             yield future.result()
     except BrokenExecutor:
         raise SimulationError(
-            "a worker process ended by itself: out of memory, or killed; or a script that runs a study does so when it "
-            'is imported: put the study under `if __name__ == "__main__":`.'
+            "a worker process died: it ran out of memory or was killed, or the script runs the study again when it is "
+            'imported: put the study under `if __name__ == "__main__":`.'
         ) from None
     finally:
         for future in futures:
@@ -46,12 +46,12 @@ def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
 
 
 def executor_of(executor: Executor | str | None, workers: int | None) -> AbstractContextManager[Executor]:
-    """Return where cases run: processes on this machine, a cluster by its address, or what is given.
+    """Return the executor of the cases: processes on this machine, a cluster by its address, or a given one.
 
     Parameters
     ----------
     executor : Executor, str or None
-        Of the kind of concurrent.futures, address of a Dask scheduler or "local", or None for processes.
+        An executor as in concurrent.futures, the address of a Dask scheduler, "local", or None for processes.
     workers : int, optional
         Number of local processes; one for each core if not given.
     """
@@ -70,7 +70,7 @@ def executor_of(executor: Executor | str | None, workers: int | None) -> Abstrac
 
 @contextmanager
 def processes(workers: int | None = None) -> Iterator[Executor]:
-    """Give an executor of processes on this machine, each with one thread for linear algebra.
+    """Yield an executor of processes on this machine, each with one thread for linear algebra.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def processes(workers: int | None = None) -> Iterator[Executor]:
         try:
             yield pool
         except BaseException:
-            # What still runs is not waited for.
+            # Do not wait for running cases.
             for process in set(multiprocessing.active_children()) - before:
                 process.terminate()
             raise
@@ -95,12 +95,12 @@ def processes(workers: int | None = None) -> Iterator[Executor]:
 
 @contextmanager
 def cluster(address: str = "local", workers: int | None = None) -> Iterator[Executor]:
-    """Give an executor of Dask workers.
+    """Yield an executor of Dask workers.
 
     Parameters
     ----------
     address : str
-        Of the scheduler, such as "tcp://10.0.0.1:8786"; "local" starts one with its workers on this machine.
+        Address of the scheduler, such as "tcp://10.0.0.1:8786"; "local" starts a scheduler and workers on this machine.
     workers : int, optional
         Number of local workers; one for each core if not given.
     """
@@ -119,7 +119,7 @@ def cluster(address: str = "local", workers: int | None = None) -> Iterator[Exec
         with client:
             yield client.get_executor(pure=False)
         return
-    # Whoever reaches a scheduler may run code on its workers: only this machine reaches this one.
+    # A scheduler runs code for anyone who can connect: listen on the loopback interface only.
     here: dict[str, Any] = {"host": LOOPBACK, "dashboard_address": f"{LOOPBACK}:0"}
     with without_main():
         local = LocalCluster(n_workers=workers or _cores(), threads_per_worker=1, processes=True, **here)
@@ -133,7 +133,7 @@ def _cores() -> int:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Let processes that start inside the block use one thread for linear algebra."""
+    """Limit processes started inside the block to one thread for linear algebra."""
     before = {name: os.environ.get(name) for name in THREADS}
     os.environ.update(dict.fromkeys(THREADS, "1"))
     try:

@@ -1,4 +1,4 @@
-"""A function that runs a formulation in place of `simulate`: whether it is one, and what tells it from others."""
+"""Checks and identity of a formulation's own integrator, a function in place of `simulate`."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language.data import plain
 from acausal.language.value_checks import shown
-from acausal.study.measuring.shipping import pack
+from acausal.study.measuring.model_pickling import pack
 
 
 def check_steps(name: str, steps: Any) -> None:
-    """Refuse steps that are none.
+    """Raise DeclarationError if steps are not positive finite numbers.
 
     Parameters
     ----------
     name : str
-        What they are called.
+        Name of the argument.
     steps : sequence of float
-        In s.
+        Steps in s.
     """
     if isinstance(steps, str) or not isinstance(steps, Sequence | np.ndarray):
         raise DeclarationError(f"{name} is {shown(steps)}; it must be a list of steps in s, such as (1e-3, 1e-4).")
@@ -37,16 +37,16 @@ def check_steps(name: str, steps: Any) -> None:
 
 
 def check_function(name: str, run: Any, control: str) -> None:
-    """Refuse what cannot be called as the run of a formulation.
+    """Raise DeclarationError if a run cannot be called with the arguments of an integrator.
 
     Parameters
     ----------
     name : str
-        Of the formulation.
+        Name of the formulation.
     run : callable
-        Its run.
+        Its integrator.
     control : "dt" or "tolerance"
-        What it is refined by.
+        The refined argument.
     """
     form = f"run(model, stop_time, times, {control}=...)"
     if not callable(run):
@@ -58,18 +58,18 @@ def check_function(name: str, run: Any, control: str) -> None:
     except TypeError as error:
         raise DeclarationError(f"formulation `{name}`: the run must be called as {form}: {error}.") from None
     except ValueError:
-        return  # of a function in C nothing is known
+        return  # a function in C has no signature
 
 
 def check_sendable(name: str, run: Any, home: str) -> None:
-    """Refuse what no worker can be sent.
+    """Raise DeclarationError if a run cannot be sent to workers.
 
     Parameters
     ----------
     name : str
-        Of the formulation.
+        Name of the formulation.
     run : callable or None
-        Its run.
+        Its integrator.
     home : str
         Module of the class of the model.
     """
@@ -80,12 +80,12 @@ def check_sendable(name: str, run: Any, home: str) -> None:
 
 
 def identity_of(run: Any) -> Any:
-    """Return what tells a run from another one, in every session, as JSON knows it.
+    """Return the identity of an integrator as JSON data, the same in every session.
 
     Parameters
     ----------
     run : callable or None
-        The run of a formulation.
+        The integrator of a formulation.
     """
     if isinstance(run, functools.partial):
         named = sorted(run.keywords.items())
@@ -104,12 +104,12 @@ def _held(value: Any) -> Any:
 
 
 def files_of(run: Any) -> Iterator[str]:
-    """Yield the names of the files in which a run is written.
+    """Yield the names of the source files of an integrator.
 
     Parameters
     ----------
     run : callable or None
-        The run of a formulation.
+        The integrator of a formulation.
     """
     while isinstance(run, functools.partial):
         run = run.func
@@ -120,7 +120,7 @@ def files_of(run: Any) -> Iterator[str]:
 
 
 def _digest(code: CodeType) -> str:
-    """Digest of what a function does, but for the values that it meets outside."""
+    """Return a hash of the code of a function, without the values of its globals."""
     inner = [_digest(c) if isinstance(c, CodeType) else repr(c) for c in code.co_consts if not isinstance(c, frozenset)]
     text = repr((code.co_code, code.co_names, code.co_varnames, inner))
     return hashlib.sha256(text.encode()).hexdigest()

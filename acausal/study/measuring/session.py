@@ -1,4 +1,4 @@
-"""A session measures cases: what the journal knows is not measured again, what is new is kept at once."""
+"""A session of measurements: cases in the journal are not measured again, new ones are recorded at once."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass
 class Session:
-    """Where and how cases are measured.
+    """A session of measurements.
 
     Parameters
     ----------
     job : Job
-        How cases are run; each takes the place of its own.
+        Template of the jobs, for every case.
     executor : Executor
-        Where jobs run.
+        Executor of the jobs.
     journal : Journal
-        What was measured earlier, and is from now on.
+        Journal of earlier and new measurements.
     progress : callable, optional
-        Called with the number of cases done, of all cases so far, and what is going on.
+        Called with the number of cases done, the number of cases so far, and the current stage.
     """
 
     job: Job
@@ -37,14 +37,14 @@ class Session:
     wanted: int = 0
 
     def measure(self, cases: Iterable[Case], what: str = "") -> list[Measurement]:
-        """Measure cases in parallel, and return what they gave in their order.
+        """Measure cases in parallel, and return the measurements in the order of the cases.
 
         Parameters
         ----------
         cases : iterable of Case
-            What to run.
+            The cases.
         what : str
-            What they are for, for the progress.
+            The current stage, for the progress.
         """
         cases = list(cases)
         new = [case for case in dict.fromkeys(cases) if case not in self.found]
@@ -53,15 +53,15 @@ class Session:
             kept = self.journal.get(case)
             if kept is not None:
                 self.found[case] = kept
-        self._tell(what)
+        self._report(what)
         own = {case: case for case in new if case not in self.found}
         for measurement in run([self.job.of(case) for case in own], self.executor):
             case = own[measurement.case]
             self.found[case] = replace(measurement, case=case)
             self.journal.add(self.found[case])
-            self._tell(what)
+            self._report(what)
         return [self.found[case] for case in cases]
 
-    def _tell(self, what: str) -> None:
+    def _report(self, what: str) -> None:
         if self.progress:
             self.progress(len(self.found), self.wanted, what)

@@ -1,4 +1,4 @@
-"""What of a model cannot be sent to another process: an open file, a lock, a generator."""
+"""Diagnosis of models that cannot be pickled: find the open file, lock or generator inside."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from typing import Any
 from acausal.language.fields import Template
 from acausal.language.value_checks import shown_or_kind
 
-DEEP = 6  # values inside values that are gone through
+DEEP = 6  # depth of the search through nested values
 
 
 def unsendable(value: Any, sends: Callable[[Any], bool], name: str = "") -> str:
-    """Name the innermost value that cannot be sent, and where it is held; "" if none is found.
+    """Describe the innermost value that cannot be pickled and its place; "" if none is found.
 
     Parameters
     ----------
     value : object
-        What cannot be sent as a whole: a model, a function, values.
+        A model, a function or values that cannot be pickled.
     sends : callable
-        Whether a value can be sent.
+        Returns whether a value can be pickled.
     name : str
-        What it is called.
+        Name of the value.
     """
     found, seen = "", set[int]()
     for _ in range(DEEP):
@@ -36,7 +36,7 @@ def unsendable(value: Any, sends: Callable[[Any], bool], name: str = "") -> str:
 
 
 def _held(value: Any, name: str) -> Iterator[tuple[str, Any]]:
-    """Yield what a value holds, each by the words for where that is."""
+    """Yield the values inside a value, each with its name."""
     start = f"{name}." if name else ""
     if isinstance(value, Template):
         for own, inner in {**vars(value), **getattr(value, "_values", {})}.items():

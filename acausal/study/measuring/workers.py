@@ -1,4 +1,4 @@
-"""Worker processes that need nothing of the script that starts them, and do not outlive it."""
+"""Worker processes that do not import the script that starts them, and end with it."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _STARTING = Lock()
 
 @contextmanager
 def without_main() -> Iterator[None]:
-    """Let processes that start inside the block not run the script again: models are sent to them with all they need.
+    """Keep processes started inside the block from importing the script again.
 
-    So a script does not need the guard `if __name__ == "__main__":`.
+    Models are sent with everything they need, so a script needs no guard `if __name__ == "__main__":`.
     """
     main: Any = sys.modules["__main__"]
     with _STARTING:
         before = getattr(main, "__spec__", None)
-        # Under this name there is nothing to import, see multiprocessing.spawn.
+        # multiprocessing.spawn imports nothing for a specification of this name.
         main.__spec__ = ModuleSpec("__main__", None)
         try:
             yield
@@ -42,13 +42,13 @@ class _Process(SpawnProcess):
 
 
 class Workers(SpawnContext):
-    """Context of multiprocessing for such processes."""
+    """Multiprocessing context that starts such processes."""
 
     Process = _Process
 
 
 def initialise() -> None:
-    """Begin a worker: interrupts are left to the process that started it, and the worker ends with that."""
+    """Initialise a worker: ignore interrupts, which the parent handles, and end with the parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:

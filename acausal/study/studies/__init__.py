@@ -1,4 +1,4 @@
-"""Studies of accuracy against time: every case of a grid against a reference.
+"""Studies of accuracy against time: every case of a grid is compared with a reference.
 
-formulation <- grid, reference <- rows <- table, picture <- study.
+Modules in the order of imports: formulation, grid and reference, study_rows, study_table and picture, study.
 """

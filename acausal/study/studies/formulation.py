@@ -1,4 +1,4 @@
-"""Formulations: the ways in which a model can be discretised."""
+"""Formulations: ways to discretise and integrate a model."""
 
 from __future__ import annotations
 
@@ -18,33 +18,34 @@ from acausal.language.data import same
 from acausal.result import Result
 from acausal.study.measuring.run_function import check_function, check_steps
 
-# Where a model does not say which numbers of elements to try: its own, twice and four times as many.
+# Default numbers of elements to try, as multiples of the model's own.
 MULTIPLES = (1, 2, 4)
 
 
 @dataclass(frozen=True)
 class Formulation:
-    """One way of computing a model: the settings that select it, what is refined in it, and how it runs.
+    """One way to compute a model: settings, numbers of elements to refine, and optionally an integrator of its own.
 
     Parameters
     ----------
     name : str
-        For tables and pictures.
+        Name in tables and pictures.
     settings : mapping of str to value
-        Structural parameters, effects or parameters by path that select it.
+        Structural parameters, effects or parameters by path that select the formulation.
     refine : mapping of str to sequence of int
-        Numbers of elements by path, from coarse to fine; those of several paths advance together.
+        Numbers of elements by path, from coarse to fine; several paths advance together.
     most : mapping of str to int
-        The greatest of these numbers where there is one, as there are only so many modes of a body; a study finds them.
+        Upper limits of these numbers, such as the number of modes of a body; a study determines them.
     exact : bool
-        True if it comes to the geometrically exact solution in the limit: a reference is made from it.
+        True if the formulation converges to the geometrically exact solution: a reference is made from it.
     run : callable, optional
-        Runs it in place of `simulate`: run(model, stop_time, times, tolerance=...) returns a Result at these times, as
-        `result_of` makes one. `model` is compiled and has the settings, `times` are equidistant from 0 to `stop_time`, in s.
-        It is sent to the workers like the model, may raise errors of acausal, whose first line the row then has, and is given
-        `progress=` if it takes that: called with the part that is done and the steps, this ends runs that take too long.
+        Integrator in place of `simulate`: run(model, stop_time, times, tolerance=...) returns a Result at these times, as
+        from `result_of`. `model` is compiled with the settings; `times` are equidistant from 0 to `stop_time`, in s. The
+        function is sent to the workers like the model. It may raise errors of acausal; their first line becomes the remark
+        of the row. If it takes `progress=`, it gets a function to call with the fraction done and the number of steps, which
+        ends runs that exceed the time limit.
     dt : sequence of float
-        Steps in s that are tried instead of the tolerances: run(model, stop_time, times, dt=...).
+        Steps in s to try instead of the tolerances: run(model, stop_time, times, dt=...).
 
     Examples
     --------
@@ -64,27 +65,28 @@ class Formulation:
         lengths = {len(sizes) for sizes in self.refine.values()}
         if len(lengths) > 1 or 0 in lengths:
             raise DeclarationError(
-                f"formulation `{self.name}`: sizes advance together, so each path of refine needs as many of them."
+                f"formulation `{self.name}`: sizes advance together, so all paths of refine need equally many."
             )
         check_steps(f"formulation `{self.name}`: dt", self.dt)
         object.__setattr__(self, "dt", tuple(self.dt))
         if self.run is None and len(self.dt):
             raise DeclarationError(
-                f"formulation `{self.name}`: dt is of a run of its own, run=...; `simulate` chooses its steps by the tolerance."
+                f"formulation `{self.name}`: dt needs an integrator of its own, run=...; `simulate` chooses its steps by the "
+                "tolerance."
             )
         if self.run is not None:
             check_function(self.name, self.run, "dt" if len(self.dt) else "tolerance")
 
     @property
     def steps(self) -> int:
-        """Number of sizes, without those that only repeat the greatest."""
+        """Number of sizes, without repetitions of the largest."""
         count = len(next(iter(self.refine.values()), (0,)))
         while count > 1 and self.most and self._sizes(count - 1) == self._sizes(count - 2):
             count -= 1
         return count
 
     def at(self, step: int) -> tuple[dict[str, Any], str]:
-        """Return settings and label of a size; beyond the last one, sizes double as long as there are greater ones.
+        """Return settings and label of a size; beyond the last one, sizes double up to their limits.
 
         Parameters
         ----------
@@ -102,18 +104,18 @@ class Formulation:
 
 
 def with_and_without(*formulations: Formulation, **switches: str) -> tuple[Formulation, ...]:
-    """Return each formulation twice for each switch: with it off, and with it on, then named "name, word".
+    """Return each formulation with each switch off and on; with it on, the formulation is named "name, word".
 
     Parameters
     ----------
     *formulations : Formulation
-        Those that have the switch.
+        Formulations that have the switches.
     **switches : str
-        Word for the name and path of the switch: stiffened="beam.geometric_stiffness".
+        Path of each switch, by the word for the name: stiffened="beam.geometric_stiffness".
     """
     for form in formulations or (None,):
         if not isinstance(form, Formulation):
-            given = "none is given" if form is None else f"{form!r} is none"
+            given = "none is given" if form is None else f"{form!r} is not one"
             example = 'Formulation("fine", {"beam.elements": 8})'
             raise declaration_error(f"with_and_without() takes formulations, such as {example}; {given}.")
     found = formulations
@@ -127,17 +129,17 @@ def with_and_without(*formulations: Formulation, **switches: str) -> tuple[Formu
 
 
 def formulations_of(model: Component, given: Mapping[str, Any]) -> tuple[Formulation, ...]:
-    """Return the formulations that a model declares, or those that its fields tell.
+    """Return the formulations that a model declares, or those that follow from its fields.
 
-    A model declares them as a class attribute `formulations`. Where none of these fits what is given, each choice of its
-    structural parameter `formulation` is one, and in each the numbers of elements of its components are refined.
+    A model declares them as a class attribute `formulations`. If none of these agrees with the given values, each choice
+    of its structural parameter `formulation` is one, refined by the numbers of elements of its components.
 
     Parameters
     ----------
     model : Component
-        Not built.
+        The model, not instantiated.
     given : mapping of str to value
-        What the user fixed: formulations that contradict it are left out.
+        Values fixed by the user: formulations that contradict them are left out.
     """
     declared: Sequence[Formulation] = getattr(type(model), "formulations", ())
     found = [form for form in declared if _agrees(form, given)]
@@ -145,16 +147,16 @@ def formulations_of(model: Component, given: Mapping[str, Any]) -> tuple[Formula
 
 
 def within(model: Component, given: Mapping[str, Any], form: Formulation) -> Formulation:
-    """Return a formulation with the greatest of the numbers that it refines, where the model has one.
+    """Return a formulation with the upper limits of its numbers of elements.
 
     Parameters
     ----------
     model : Component
-        Not built.
+        The model, not instantiated.
     given : mapping of str to value
-        What the user fixed.
+        Values fixed by the user.
     form : Formulation
-        Of this model.
+        A formulation of this model.
     """
     if not form.refine:
         return form
@@ -173,7 +175,7 @@ def _agrees(form: Formulation, given: Mapping[str, Any]) -> bool:
 
 
 def _with(form: Formulation, given: Mapping[str, Any]) -> Formulation:
-    """Leave numbers of elements alone that the user fixed."""
+    """Return a formulation without refinement of numbers of elements that the user fixed."""
     return replace(form, refine={path: sizes for path, sizes in form.refine.items() if path not in given})
 
 
@@ -189,7 +191,7 @@ def _derived(model: Component, given: Mapping[str, Any]) -> Iterator[Formulation
 
 
 def _refinement(tree: Component) -> dict[str, tuple[int, ...]]:
-    """Return the sizes by path, without first ones that are the same throughout."""
+    """Return the sizes by path, without repetitions at the coarse end."""
     found = {path: _multiples(n, least, most) for path, n, least, most in _elements(tree)}
     steps = list(zip(*found.values(), strict=True))
     while len(steps) > 1 and steps[0] == steps[1]:
@@ -198,7 +200,7 @@ def _refinement(tree: Component) -> dict[str, tuple[int, ...]]:
 
 
 def _multiples(n: int, least: int, most: float | None) -> tuple[int, ...]:
-    """Return multiples of a number, or where there are no more, parts of it as well."""
+    """Return multiples of a number within its limit, filled up with halves of it."""
     found = sorted({n * k if most is None else min(n * k, int(most)) for k in MULTIPLES})
     while len(found) < len(MULTIPLES):
         found.insert(0, min(max(found[0] // 2, least), found[0]))
@@ -206,13 +208,13 @@ def _multiples(n: int, least: int, most: float | None) -> tuple[int, ...]:
 
 
 def _elements(component: Component) -> Iterator[tuple[str, int, int, float | None]]:
-    """Paths, values and bounds of the topmost numbers of elements below a component."""
+    """Yield paths, values and bounds of the topmost numbers of elements below a component."""
     own = [n for n, d in component.fields.items() if isinstance(d, f.Structural) and d.refine is not None]
     for name in own:
         declared: Any = component.fields[name]
         most = largest(component, declared)
         value = getattr(component, name)
-        if value is None:  # all that there are
+        if value is None:  # None means the maximum
             value = most
         if value is not None:
             yield join(component._path, name), int(value), int(declared.minimum or 1), most

@@ -1,4 +1,4 @@
-"""The grid of a study: every combination of what is varied."""
+"""The grid of a study: all combinations of the varied quantities."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.language.value_checks import shown
-from acausal.simulation.asked import CHOICES, CONSTRAINTS
-from acausal.study.measuring.arguments import items
+from acausal.simulation.settings_checks import CHOICES, CONSTRAINTS
 from acausal.study.measuring.case import Case
 from acausal.study.measuring.run_function import check_steps
+from acausal.study.measuring.study_arguments import items
 from acausal.study.studies.formulation import Formulation
 
 EXAMPLES = {
@@ -27,24 +27,24 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
 @dataclass(frozen=True)
 class Grid:
-    """What is varied.
+    """The varied quantities of a study.
 
     Parameters
     ----------
     formulations : sequence of Formulation
-        Each with its sizes.
+        Formulations, each with its sizes.
     tolerances : sequence of float
         Relative tolerances of a step.
     max_orders : sequence of int or None
         Limits of the order; None lets `simulate` choose.
     methods : sequence of str or None
-        As of `simulate`; None is the model's own.
+        As in `simulate`; None is the model's own.
     constraints : sequence of str
-        As of `simulate`.
+        As in `simulate`.
     switches : mapping of str to sequence
         Other structural parameters and effects by path, with their values.
     dt : sequence of float, optional
-        Steps in s of the formulations that declare some, in place of these.
+        Steps in s that replace those of formulations with steps of their own.
     """
 
     formulations: Sequence[Formulation]
@@ -85,25 +85,25 @@ class Grid:
         for path, values in self.switches.items():
             example = "[True, False]" if isinstance(values, bool) else "[1, 2]"
             if not items(f'switches["{path}"]', values, example):
-                raise DeclarationError(f"the switch `{path}` has no values; give those that are to be tried.")
+                raise DeclarationError(f"the switch `{path}` has no values; give the values to try.")
 
     def cases(self, given: Mapping[str, Any]) -> list[Case]:
-        """Return every case, those of one compiled model together.
+        """Return all cases, those of one compiled model together.
 
         Parameters
         ----------
         given : mapping of str to value
-            Settings that all cases have in common.
+            Common settings of all cases.
         """
         return [found for form, case in self._structures(given) for found in self._runs(form, case)]
 
     def structures(self, given: Mapping[str, Any]) -> list[Case]:
-        """Return one case for each model that has to be compiled.
+        """Return one case for each compiled model.
 
         Parameters
         ----------
         given : mapping of str to value
-            Settings that all cases have in common.
+            Common settings of all cases.
         """
         return [case for _, case in self._structures(given)]
 
@@ -115,7 +115,7 @@ class Grid:
                 yield form, Case(form.name, {**given, **settings, **switched}, size, run=form.run)
 
     def _runs(self, form: Formulation, case: Case) -> Iterator[Case]:
-        """A case with every tolerance, and all that is chosen of `simulate`; or with every step."""
+        """Yield a case with all steps, or with all tolerances, methods, constraints and order limits."""
         tolerances = sorted(self.tolerances, reverse=True)
         if form.dt:
             yield from (replace(case, dt=float(dt)) for dt in sorted(self.dt or form.dt, reverse=True))

@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING, Any
 from acausal.errors import DeclarationError
 from acausal.result.plots import canvas
 from acausal.study.studies.reference import Reference
-from acausal.study.studies.rows import STEP, TOLERANCE, StudyRow, pareto
+from acausal.study.studies.study_rows import STEP, TOLERANCE, StudyRow, pareto
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 MARKERS = "osD^vPXh<>pd"
-# Ratios of times of points whose labels would meet: one goes above, or none is written.
+# Ratios of the times of neighbouring points below which the second label moves to the other side, or is left out.
 NEAR, TOO_NEAR = 1.35, 1.15
 
 
 def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str | None = None) -> Figure:
     """Draw error over solve time, both logarithmic.
 
-    A curve joins the points of a formulation that no other point of it beats. Hollow points would gain from a tighter
-    tolerance or shorter steps, filled ones would not.
+    A curve joins the Pareto-optimal points of a formulation. Hollow points would gain from a tighter tolerance or shorter
+    steps, filled ones would not.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str
     title : str
         Title of the picture.
     output : str, optional
-        Whose error; the largest of all outputs if not given.
+        Output whose error is drawn; the largest error of all outputs if not given.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str
 
 
 def _curve(axes: Axes, rows: Sequence[StudyRow], name: str, k: int, output: str | None) -> None:
-    """Draw every point of a formulation, and join the best of them."""
+    """Draw all points of a formulation, and join the Pareto-optimal ones."""
     if not rows:
         return
     colour, marker = f"C{k % 10}", MARKERS[k % len(MARKERS)]
@@ -86,7 +86,7 @@ def _curve(axes: Axes, rows: Sequence[StudyRow], name: str, k: int, output: str 
 
 
 def _front(axes: Axes, rows: Sequence[StudyRow], floor: float, output: str | None) -> None:
-    """Ring the points that no other one beats, and name their sizes and tolerances."""
+    """Ring the Pareto-optimal points, and label them with sizes and tolerances."""
     best = pareto(rows, floor, output)
     x, y = [_ms(r) for r in best], [r.error_of(output) for r in best]
     ring = {"marker": "o", "markersize": 12, "markerfacecolor": "none", "color": "black", "linestyle": "none"}
@@ -107,7 +107,7 @@ def _ms(row: StudyRow) -> float:
 
 
 def _band(axes: Axes, floor: float) -> None:
-    """Shade the errors that the reference cannot tell."""
+    """Shade errors below the uncertainty of the reference."""
     low, high = axes.get_ylim()
     if floor > low:
         axes.axhspan(low, min(floor, high), color="0.9", zorder=0, label=f"the reference is known to {floor:.1g}")

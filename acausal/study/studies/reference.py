@@ -1,4 +1,4 @@
-"""The reference of a study: refined until it no longer changes, or read from a file."""
+"""The reference of a study: refined until it converges, or read from a file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Measure = Callable[[Iterable[Case]], Sequence[Measurement]]
 
 @dataclass(frozen=True)
 class Reference:
-    """What a study compares with, and how well it is known.
+    """The reference of a study and its uncertainty.
 
     Parameters
     ----------
@@ -31,30 +31,30 @@ class Reference:
     values : mapping of str to array, shape (times,)
         Outputs by name.
     agreement : mapping of str to mapping of str to float
-        What it was compared with: the largest deviation of each output, as a fraction of its range.
-    asked : float
+        Largest deviation of each output, as a fraction of its range, by what the reference was compared with.
+    requested : float
         The requested deviation.
     text : str
-        Where it comes from.
+        Its origin, for tables.
     case : Case or None
-        How it was computed, where it was.
+        The case that computed it; None if it was read.
     """
 
     times: np.ndarray
     values: Mapping[str, np.ndarray]
     agreement: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    asked: float = 0.0
+    requested: float = 0.0
     text: str = ""
     case: Case | None = None
 
     @property
     def floors(self) -> dict[str, float]:
-        """Errors of each output below which none can be distinguished."""
+        """Uncertainty of each output: smaller errors cannot be distinguished."""
         return {name: max((a[name] for a in self.agreement.values()), default=0.0) for name in self.values}
 
     @property
     def floor(self) -> float:
-        """Errors below it cannot be distinguished."""
+        """Largest uncertainty of all outputs."""
         return max(self.floors.values(), default=0.0)
 
     def __str__(self) -> str:
@@ -62,65 +62,69 @@ class Reference:
             return f"reference: {self.text}"
         compared = ", ".join(f"{what} {max(found.values()):.1e}" for what, found in self.agreement.items())
         lines = [f"reference: {self.text}; known to {self.floor:.1e} of the range ({compared})"]
-        if self.floor > self.asked:
-            lines.append(f"{self.asked:.0e} was requested but not reached: smaller errors cannot be distinguished")
+        if self.floor > self.requested:
+            lines.append(f"{self.requested:.0e} was requested but not reached: smaller errors cannot be distinguished")
         if len(self.values) > 1:
             lines.append("by output: " + ", ".join(f"{name} {floor:.1e}" for name, floor in self.floors.items()))
         return "\n".join(lines)
 
 
-def make(measure: Measure, formulations: Sequence[Formulation], case: Case, least: float, asked: float) -> Reference:
-    """Make the reference from the model itself, where there are any by formulations that a tolerance refines.
+def make(
+    measure: Measure, formulations: Sequence[Formulation], case: Case, least: float, requested: float
+) -> Reference:
+    """Compute the reference from the model itself, preferably by formulations that are refined by a tolerance.
 
     Parameters
     ----------
     measure : callable
         Measures cases in parallel.
     formulations : sequence of Formulation
-        Those with the same limit; two of them check each other.
+        Formulations that converge to the same solution; two of them check each other.
     case : Case
-        Settings that all cases have in common.
+        Common settings of all cases.
     least : float
         The tightest tolerance of the study.
-    asked : float
+    requested : float
         Deviation to be reached, as a fraction of the range.
     """
     start = replace(case, tolerance=max(STUDY.least, least / STUDY.tighter))
     own = [form for form in formulations if not form.dt]
     if not own:
-        return _stepped(measure, _at(start, formulations[0], formulations[0].steps - 1), min(formulations[0].dt), asked)
+        return _stepped(
+            measure, _at(start, formulations[0], formulations[0].steps - 1), min(formulations[0].dt), requested
+        )
     formulations = own
     if not any(form.refine for form in formulations):
-        return _tightened(measure, _at(start, formulations[0], 0), asked)
-    return _refined(measure, [form for form in formulations if form.refine], start, asked)
+        return _tightened(measure, _at(start, formulations[0], 0), requested)
+    return _refined(measure, [form for form in formulations if form.refine], start, requested)
 
 
 def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Reference:
-    """Read a table as `simulate --csv` writes it.
+    """Read a table in the format of `simulate --csv`.
 
     Parameters
     ----------
     path : str or Path
         Name of the file: `time`, then outputs.
     outputs : sequence of str
-        Outputs that are compared.
+        The compared outputs.
     times : array, shape (times,)
-        Of the study, in s.
+        Times of the study, in s.
     """
     return matching(read_csv(path, "the reference"), outputs, times)
 
 
 def matching(table: Columns, outputs: Sequence[str], times: np.ndarray) -> Reference:
-    """Take a table as the reference.
+    """Make a reference from a table.
 
     Parameters
     ----------
     table : Columns
-        What was read.
+        The table.
     outputs : sequence of str
-        Outputs that are compared.
+        The compared outputs.
     times : array, shape (times,)
-        Of the study, in s.
+        Times of the study, in s.
     """
     missing = [name for name in ("time", *outputs) if name not in table.head]
     if missing and all(map(_is_number, table.head)):
@@ -143,29 +147,32 @@ def matching(table: Columns, outputs: Sequence[str], times: np.ndarray) -> Refer
     return Reference(times, values, text=table.path)
 
 
-def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked: float) -> Reference:
-    """Double the sizes and tighten the tolerance until nothing changes and two formulations of one limit agree."""
+def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, requested: float) -> Reference:
+    """Double the sizes and tighten the tolerance until the result converges and two formulations agree."""
     state, best = _State(tuple(forms), start.tolerance), None
     for _ in range(STUDY.rounds):
-        now, state, why = _look(measure, state, start, asked)
+        now, state, why = _compared(measure, state, start, requested)
         if now is not None and (best is None or now.floor < best.floor):
             best = now
-        if why or (best is not None and best.floor <= asked):
-            return _ended(best, why)
-    return _ended(best, f"{STUDY.rounds} refinements were tried")
+        if why or (best is not None and best.floor <= requested):
+            return _finished(best, why)
+    return _finished(best, f"{STUDY.rounds} refinements were tried")
 
 
 @dataclass(frozen=True)
 class _State:
-    """Where the refinement is: formulations still in it, tolerance, and doublings of the finest sizes."""
+    """State of the refinement: remaining formulations, tolerance, and doublings of the finest sizes."""
 
     forms: tuple[Formulation, ...]
     tolerance: float
     level: int = 0
 
 
-def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[Reference | None, _State, str]:
-    """Compare with coarser elements, another formulation and a looser tolerance; return what to refine, or what failed."""
+def _compared(measure: Measure, state: _State, start: Case, requested: float) -> tuple[Reference | None, _State, str]:
+    """Compare with coarser elements, another formulation and a looser tolerance.
+
+    Returns the reference, None if all runs failed; the next refinement; and why the refinement has to end, or "".
+    """
     case, n = replace(start, tolerance=state.tolerance), len(state.forms)
     coarse = [_at(case, form, max(0, form.steps - 2 + state.level)) for form in state.forms]
     fine = [_at(case, form, form.steps - 1 + state.level) for form in state.forms]
@@ -173,10 +180,10 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     pairs = [(a, b, form) for a, b, form in zip(runs[:n], runs[n:], state.forms, strict=True) if not a.error + b.error]
     if not pairs:
         return None, state, _failed(runs)
-    # The two that change least go on: they converge fastest.
+    # Keep the two that change least: they converge fastest.
     pairs = sorted(pairs, key=lambda pair: worst(pair[0].values, pair[1].values))[:2]
     coarser, best, _ = pairs[0]
-    # As many elements as there can be leave nothing to compare with.
+    # At the maximum number of elements there is no coarser run to compare with.
     agreement = {"coarser elements": _distances(coarser, best)} if coarser.case != best.case else {}
     agreement |= {other.case.formulation: _distances(other, best) for _, other, _ in pairs[1:]}
     elements = max((max(found.values()) for found in agreement.values()), default=0.0)
@@ -187,26 +194,26 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     tolerance = max(agreement["looser tolerance"].values())
     forms = tuple(form for *_, form in pairs)
     why = _failed(runs) if len(forms) < min(n, 2) else ""
-    tighten = tolerance > max(asked, elements / 3) and state.tolerance / STUDY.tighter >= STUDY.least
+    tighten = tolerance > max(requested, elements / 3) and state.tolerance / STUDY.tighter >= STUDY.least
     if not tighten and all(a.case == b.case for a, b, _ in pairs):
-        why = why or "there are no greater numbers of elements"
+        why = why or "the maximum number of elements is reached"
     after = (
         _State(forms, state.tolerance / STUDY.tighter, state.level)
         if tighten
         else _State(forms, state.tolerance, state.level + 1)
     )
-    return _reference(best, agreement, asked), after, why
+    return _reference(best, agreement, requested), after, why
 
 
-def _ended(found: Reference | None, why: str) -> Reference:
-    """Report why the refinement ended before it was good enough."""
+def _finished(found: Reference | None, why: str) -> Reference:
+    """Note why the refinement ended early, or raise SimulationError without a result."""
     if found is None:
         raise SimulationError(f"there is no reference: {why}. Give one by reference=, or other formulations.")
     return replace(found, text=f"{found.text} ({why})") if why else found
 
 
-def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
-    """Tighten the tolerance of a model without elements, and check by another way of integration."""
+def _tightened(measure: Measure, case: Case, requested: float) -> Reference:
+    """Tighten the tolerance of a model without elements, and check by another method."""
     found, best, looser = (
         None,
         measure([case])[0],
@@ -217,31 +224,31 @@ def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
         if best.error or looser.error:
             why = _failed([best, looser])
             break
-        found = _reference(best, {"looser tolerance": _distances(looser, best)}, asked)
+        found = _reference(best, {"looser tolerance": _distances(looser, best)}, requested)
         tolerance = best.case.tolerance / STUDY.tighter
-        if found.floor <= asked or tolerance < STUDY.least:
+        if found.floor <= requested or tolerance < STUDY.least:
             break
         looser, best = best, measure([replace(best.case, tolerance=tolerance)])[0]
-    return _checked(measure, _ended(found, why), looser if best.error else best)
+    return _checked(measure, _finished(found, why), looser if best.error else best)
 
 
-def _stepped(measure: Measure, case: Case, dt: float, asked: float) -> Reference:
-    """Halve the steps of a formulation that has its own."""
+def _stepped(measure: Measure, case: Case, dt: float, requested: float) -> Reference:
+    """Halve the steps of a formulation with steps of its own."""
     found, why = None, ""
     longer, best = measure([replace(case, dt=dt), replace(case, dt=dt / 2)])
     for _ in range(STUDY.rounds):
         if longer.error or best.error:
             why = _failed([longer, best])
             break
-        found = _reference(best, {"longer steps": _distances(longer, best)}, asked)
-        if found.floor <= asked:
+        found = _reference(best, {"longer steps": _distances(longer, best)}, requested)
+        if found.floor <= requested:
             break
         longer, best = best, measure([best.case.refined(best.case.control / 2)])[0]
-    return _ended(found, why)
+    return _finished(found, why)
 
 
 def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference:
-    """Compare with loops closed in the other way, or with the other integrator, where `simulate` ran it."""
+    """Compare a reference by `simulate` with the other treatment of loops, or with the other integrator."""
     if best.case.run is not None:
         return found
     if best.constraints in ("states", "projection"):
@@ -259,8 +266,8 @@ def _distances(one: Measurement, other: Measurement | Reference) -> dict[str, fl
     return {name: most for name, (most, _) in deviations(one.values, other.values).items()}
 
 
-def _reference(best: Measurement, agreement: Mapping[str, Mapping[str, float]], asked: float) -> Reference:
-    return Reference(best.times, best.values, agreement, asked, str(best.case), best.case)
+def _reference(best: Measurement, agreement: Mapping[str, Mapping[str, float]], requested: float) -> Reference:
+    return Reference(best.times, best.values, agreement, requested, str(best.case), best.case)
 
 
 def _at(case: Case, form: Formulation, step: int) -> Case:

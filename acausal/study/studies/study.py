@@ -1,4 +1,4 @@
-"""study(): what accuracy costs in time."""
+"""study(): accuracy against time of the formulations and numerics of a model."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from acausal.compiler import CompiledModel, compile, model_of, values_of
+from acausal.compiler import CompiledModel, checked_model, checked_values, compile
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
 from acausal.language.call_arguments import checked_arguments
@@ -20,8 +20,14 @@ from acausal.result import check_writable
 from acausal.result.files import whole
 from acausal.result.plots import save
 from acausal.result.tables import read_csv, write_csv
-from acausal.simulation.asked import check_choice
-from acausal.study.measuring.arguments import (
+from acausal.simulation.settings_checks import check_choice
+from acausal.study.measuring.case import Case, Job
+from acausal.study.measuring.journal import Journal, identity
+from acausal.study.measuring.model_pickling import pack
+from acausal.study.measuring.pool import executor_of
+from acausal.study.measuring.run_function import check_sendable
+from acausal.study.measuring.session import Progress, Session
+from acausal.study.measuring.study_arguments import (
     check_counts,
     check_run,
     check_shares,
@@ -30,18 +36,12 @@ from acausal.study.measuring.arguments import (
     stop_time_of,
     table_of,
 )
-from acausal.study.measuring.case import Case, Job
-from acausal.study.measuring.journal import Journal, identity
-from acausal.study.measuring.pool import executor_of
-from acausal.study.measuring.run_function import check_sendable
-from acausal.study.measuring.session import Progress, Session
-from acausal.study.measuring.shipping import pack
 from acausal.study.studies.formulation import Formulation, formulations_of, within
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
 from acausal.study.studies.reference import Reference, make, matching
-from acausal.study.studies.rows import MODEL, StudyRow, pareto, rows_of
-from acausal.study.studies.table import cells, columns
+from acausal.study.studies.study_rows import MODEL, StudyRow, pareto, rows_of
+from acausal.study.studies.study_table import cells, columns
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,18 +49,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Study:
-    """Every case of a study against its reference.
+    """The result of a study: all cases compared with the reference.
 
     Parameters
     ----------
     title : str
         Name of the model.
     rows : tuple of StudyRow
-        One for each case.
+        One row for each case.
     reference : Reference
-        What they are compared with, and how well it is known.
+        The reference and its uncertainty.
     switches : tuple of str
-        Paths that were varied beside the formulation.
+        Paths varied besides the formulation.
     """
 
     title: str
@@ -70,21 +70,21 @@ class Study:
 
     @property
     def best(self) -> list[StudyRow]:
-        """The rows that no other one beats in time and error, the fastest first."""
+        """The Pareto-optimal rows in time and error, the fastest first."""
         return pareto([row for row in self.rows if not row.remark], self.reference.floor)
 
     @property
     def columns(self) -> dict[str, list[Any]]:
-        """Everything that is known, by the names of the columns of the CSV."""
+        """All figures by the names of the columns of the CSV file."""
         return columns(self.rows, self.switches)
 
     def table(self) -> str:
-        """Return reference, cases, the price of each digit and the gaps of other models as text for a terminal."""
+        """Return reference, cases, the cost of each digit and model errors as text for a terminal."""
         table = cells(self.rows, self.reference, self.switches).text()
         return "\n\n".join([self.title, str(self.reference), table, "\n".join([*self.price(), *self.gaps()])])
 
     def price(self) -> list[str]:
-        """Return what each digit costs: the fastest case within each power of ten of the error, a line each."""
+        """Return the cost of each digit: a line with the fastest case within each power of ten of the error."""
         lines = []
         for power in range(-1, -13, -1):
             within = [row for row in self.best if row.error <= 10.0**power]
@@ -94,26 +94,31 @@ class Study:
         return lines
 
     def gaps(self) -> list[str]:
-        """Return how far formulations stay from the reference because they are other models, a line each."""
+        """Return the model error of formulations that do not converge to the reference, a line each."""
         lines = []
         for name in dict.fromkeys(row.case.formulation for row in self.rows):
             own = [row for row in self.rows if row.case.formulation == name and not row.remark]
             least = min(own, key=lambda row: row.error, default=None)
             if least is not None and least.limit == MODEL:
                 lines.append(
-                    f"{name}: another model than the reference, {least.error:.1e} of the range away at its best"
+                    f"{name}: converges to another solution; its smallest error is {least.error:.1e} of the range"
                 )
         return lines
 
     def document(self) -> dict[str, Any]:
-        """Return all as data."""
+        """Return everything as data for JSON."""
         known, table = self.reference, self.columns
-        told = {"text": known.text, "agreement": known.agreement, "asked": known.asked, "known_to": known.floors}
+        described = {
+            "text": known.text,
+            "agreement": known.agreement,
+            "asked": known.requested,
+            "known_to": known.floors,
+        }
         rows = [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
-        return {"model": self.title, "reference": told, "rows": rows}
+        return {"model": self.title, "reference": described, "rows": rows}
 
     def to_csv(self, path: str | Path) -> None:
-        """Write every column of every case.
+        """Write all columns of all cases.
 
         Parameters
         ----------
@@ -123,7 +128,7 @@ class Study:
         write_csv(path, self.columns)
 
     def to_markdown(self, path: str | Path) -> None:
-        """Write reference, cases, the price of each digit and the gaps of other models as Markdown.
+        """Write reference, cases, the cost of each digit and model errors as Markdown.
 
         Parameters
         ----------
@@ -143,7 +148,7 @@ class Study:
         path : str or Path, optional
             Write the picture there; the suffix determines the format.
         output : str, optional
-            Whose error; the largest of all outputs if not given.
+            Output whose error is drawn; the largest error of all outputs if not given.
         """
         figure = draw(self.rows, self.reference, self.title, output)
         if path is not None:
@@ -185,61 +190,61 @@ def study(
     stop_time : float, optional
         In s; the model's own if not given.
     parameters : mapping of str to value, optional
-        Values by path that all cases have in common; what they fix is not varied.
+        Values by path, common to all cases and not varied.
     outputs : sequence of str
-        Paths of what is compared, with * and ?; if empty, those of the model's attribute `compared`, or its outputs.
+        Paths of the quantities to compare, with * and ?; if empty, those in the model's attribute `compared`, or its outputs.
     formulations : sequence of Formulation, optional
-        Ways of discretising the model; those that it declares or that follow from its fields if not given.
+        Ways to discretise the model; those that it declares, or that follow from its fields, if not given.
     tolerances, max_orders, methods : sequence
         Tolerances, limits of the order and methods, as in `simulate`.
     constraints : sequence of str, optional
-        As of `simulate`; "states" and "projection" for a model with loops and a single formulation.
+        As in `simulate`; if not given, "states" and "projection" for a model with loops and a single formulation.
     switches : mapping of str to sequence, optional
-        Other structural parameters and effects by path, with the values to be tried.
+        Other structural parameters and effects by path, with the values to try.
     dt : sequence of float, optional
-        Steps in s to be tried in formulations that have steps of their own; those that they declare if not given.
+        Steps in s to try in formulations with steps of their own; those that they declare if not given.
     reference : str or Path, optional
-        A table as `simulate --csv` writes it; made from the model if not given.
+        A table in the format of `simulate --csv`; computed from the model if not given.
     accuracy : float
         Required accuracy of the reference, as a fraction of each output's range: the smallest error that is reported.
     intervals : int
         Every run has intervals + 1 equidistant points.
     initial : str, optional
-        As of `simulate`.
+        As in `simulate`.
     repeats : int
-        Runs of a case whose median counts; runs of several seconds are not repeated.
+        Number of runs of a case whose median counts; runs of several seconds are not repeated.
     limit : float
         Seconds after which a case is stopped.
     workers : int, optional
         Number of processes; one for each core if not given.
     executor : Executor or str, optional
-        Where cases run: any of the kind of concurrent.futures, "local" for Dask workers on this machine, or the
-        address of a Dask scheduler. Processes of this machine if not given.
+        Where cases run: an executor as in concurrent.futures, "local" for Dask workers on this machine, or the address
+        of a Dask scheduler. Processes of this machine if not given.
     journal : str or Path, optional
-        File that keeps what is done; an interrupted study continues from it, a complete one removes it.
+        File that records finished cases; an interrupted study continues from it, a complete one removes it.
     progress : callable, optional
-        Called with the number of cases done, of cases so far, and what is going on.
+        Called with the number of cases done, the number of cases so far, and the current stage.
 
     Returns
     -------
     Study
-        Table, picture and reference.
+        Rows, table, picture and reference.
 
     Raises
     ------
     DeclarationError
-        Where the input is wrong, before anything is run.
+        If the input is wrong, before anything is run.
     SimulationError
-        If there is no reference.
+        If no reference can be computed.
     """
-    model, given = model_of(model), values_of(parameters)
+    model, given = checked_model(model), checked_values(parameters)
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
     _check(initial, workers, journal)
     table = None if reference is None else read_csv(reference, "the reference")
-    asked = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
-    forms = [within(model, given, form) if isinstance(form, Formulation) else form for form in asked]
+    requested = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    forms = [within(model, given, form) if isinstance(form, Formulation) else form for form in requested]
     varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
     grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied, dt)
     compiled = compile(model, given)
@@ -265,7 +270,7 @@ def study(
 
 
 def _check(initial: str | None, workers: int | None, journal: str | Path | None) -> None:
-    """Refuse what would only be found after the model is compiled."""
+    """Check arguments that would otherwise fail only after the model is compiled."""
     check_choice("initial", initial)
     if workers is not None:
         check_counts(workers=workers)
@@ -274,13 +279,13 @@ def _check(initial: str | None, workers: int | None, journal: str | Path | None)
 
 
 def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Case:
-    """Return what all cases of a reference have in common: what is switched stands as in the model itself."""
+    """Return the common settings of the cases of a reference: switches have the model's own values."""
     own = {path: value for path in grid.switches if (value := _value(compiled, path)) is not None}
     return Case("", {**given, **own}, method=grid.methods[0], constraints=grid.constraints[0])
 
 
 def _value(compiled: CompiledModel, path: str) -> Any:
-    """Value of a structural parameter, an effect or a parameter; None where the model as given does not have it."""
+    """Return the value of a structural parameter, an effect or a parameter; None if the model does not have it."""
     try:
         value = compiled.value(path)
     except DeclarationError:

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 import acausal as ac
 from acausal import Component, Model, Scalar, chain, fixed, geometry, output, parameter, sqrt, variable
 from acausal.animation.document import document
-from acausal.result.animated import Asked, run_of
+from acausal.result.animated import AnimationOptions, run_of
 from components import Body, FlexibleBeam, Revolute, World
 from components.frame import Frame, TwoFrames, pose
 from models import SCENES
@@ -25,7 +25,7 @@ from tests.shared import compiled
 
 def made(result: Any, values: tuple[str, ...] = (), **asked: Any) -> dict[str, Any]:
     """Return a run of a document as a page would read it: through JSON without NaN."""
-    found = document({"run": run_of(result, Asked(**asked))}, values)
+    found = document({"run": run_of(result, AnimationOptions(**asked))}, values)
     return json.loads(json.dumps(found, allow_nan=False))["runs"][0]
 
 
@@ -383,7 +383,7 @@ def test_results_without_a_model_or_time(machine: ac.Result, tmp_path: Path) -> 
     loaded = pickle.loads(pickle.dumps(machine))
     arrays = ac.result_of([0.0, 1.0], {"x": ([0, 1], "m")})
     for result in (loaded, arrays):
-        with pytest.raises(ac.DeclarationError, match="without a model"):
+        with pytest.raises(ac.DeclarationError, match="has no model"):
             result.animate(tmp_path / "run.html")
         assert result._repr_html_() is None
     empty = ac.Result(np.empty(0), machine._evaluate, machine.tree, machine.outputs, machine.stats)
@@ -439,7 +439,7 @@ def test_several_runs_have_one_size(tmp_path: Path, machine: ac.Result) -> None:
     text = (tmp_path / "both.html").read_text()
     assert "</script><b>" not in text
     for wrong in (machine, [machine], {}, {"a": 1}):
-        with pytest.raises(ac.DeclarationError, match="names"):
+        with pytest.raises(ac.DeclarationError, match="dictionary"):
             ac.animate(wrong, tmp_path / "wrong.html")  # type: ignore[arg-type]
 
 

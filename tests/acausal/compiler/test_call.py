@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from acausal.compiler.call import Call
-from acausal.compiler.once import latest, once
-from acausal.compiler.rowwise import AT_ONCE, PAYS, Rowwise
+from acausal.compiler.memo import memoized, memoized_latest
+from acausal.compiler.vectorized import AT_ONCE, PAYS, Vectorized
 from acausal.core import library
 
 X = ca.SX.sym("x", 2)
@@ -51,7 +51,7 @@ def test_rows_are_those_of_single_calls(n):
     rng = np.random.default_rng(n)
     xs, zs, ts = rng.random((n, 2)), rng.random((n, 3)), rng.random(n)
     cs, p0 = rng.random((n, 2)), rng.random(1)
-    found = Rowwise(function)(xs, zs, p0, ts[:, None], cs)
+    found = Vectorized(function)(xs, zs, p0, ts[:, None], cs)
     expected = [np.array(function(xs[k], zs[k], p0, ts[k], cs[k])).ravel() for k in range(n)]
     np.testing.assert_array_equal(found, expected)
 
@@ -59,12 +59,12 @@ def test_rows_are_those_of_single_calls(n):
 def test_once_for_each_model_and_argument():
     counted = []
 
-    @once
+    @memoized
     def twice(model, number):
         counted.append((model.name, number))
         return 2 * number
 
-    a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
+    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(memo={}, name="b")
     assert [twice(a, 1), twice(a, 1), twice(a, 2), twice(b, 1)] == [2, 2, 4, 2]
     assert counted == [("a", 1), ("a", 2), ("b", 1)]
 
@@ -72,12 +72,12 @@ def test_once_for_each_model_and_argument():
 def test_the_latest_of_each_model():
     counted = []
 
-    @latest(2)
+    @memoized_latest(2)
     def twice(model, number):
         counted.append((model.name, number))
         return 2 * number
 
-    a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
+    a, b = SimpleNamespace(memo={}, name="a"), SimpleNamespace(memo={}, name="b")
     asked = [(a, 1), (b, 1), (a, 1), (b, 1), (a, 2), (a, 1), (a, 3), (a, 2), (a, 1)]
     assert [twice(m, k) for m, k in asked] == [2, 2, 2, 2, 4, 2, 6, 4, 2]
     assert counted == [("a", 1), ("b", 1), ("a", 2), ("a", 3), ("a", 1)]
@@ -85,9 +85,9 @@ def test_the_latest_of_each_model():
 
 def test_places_have_the_same_values_once_a_tape_pays():
     x, p = ca.SX.sym("x", 2), ca.SX.sym("p")
-    rowwise = Rowwise(ca.Function("f", [x, p], [ca.vertcat(ca.sin(x[0]) * p, x[1] / p)]))
+    vectorized = Vectorized(ca.Function("f", [x, p], [ca.vertcat(ca.sin(x[0]) * p, x[1] / p)]))
     xs, p0 = np.random.default_rng(0).standard_normal((PAYS // 2, 2)), np.array([0.7])
-    first, second, third = (rowwise(xs, p0) for _ in range(3))
+    first, second, third = (vectorized(xs, p0) for _ in range(3))
     np.testing.assert_array_equal(second, first)
     np.testing.assert_array_equal(third, first)
-    assert (rowwise._tape is not None) == bool(library())
+    assert (vectorized._tape is not None) == bool(library())

@@ -37,7 +37,7 @@ from acausal import (
     when,
 )
 from acausal.core.tape import KINDS
-from acausal.export.dae import archive
+from acausal.export.dae import dae_archive
 from acausal.export.dae.expressions import INT, NAMES, UNARY, Operations, Reader, Writer
 from models import SCENES
 from tests.shared import compiled
@@ -330,7 +330,7 @@ def test_cut_files_are_refused(good, tmp_path):
     content = good.read_bytes()
     for length in (0, 1, 100, len(content) // 2, len(content) - 1):
         (tmp_path / "cut.dae").write_bytes(content[:length])
-        assert "it is no open DAE, or it was cut or damaged" in why(tmp_path / "cut.dae")
+        assert "it is not an open DAE, or it is truncated or damaged" in why(tmp_path / "cut.dae")
 
 
 def test_damaged_files_are_refused_or_the_same(good, tmp_path):
@@ -349,7 +349,7 @@ def test_damaged_files_are_refused_or_the_same(good, tmp_path):
     assert refused > 100
 
 
-@pytest.mark.parametrize("name", [archive.FIRST, *archive.MEMBERS])
+@pytest.mark.parametrize("name", [dae_archive.FIRST, *dae_archive.MEMBERS])
 def test_a_member_that_is_changed_missing_or_there_twice_is_refused(good, tmp_path, name):
     content = members(good)
     at = len(content[name]) // 2
@@ -357,13 +357,13 @@ def test_a_member_that_is_changed_missing_or_there_twice_is_refused(good, tmp_pa
     changed = content[name][:at] + other + content[name][at + 1 :]
     assert f"{name} is damaged" in why(packed(tmp_path / "b.dae", {**content, name: changed}))
     less = {k: v for k, v in content.items() if k != name}
-    assert ("no open DAE" if name == archive.FIRST else "each once") in why(packed(tmp_path / "c.dae", less))
+    assert ("not an open DAE" if name == dae_archive.FIRST else "each once") in why(packed(tmp_path / "c.dae", less))
 
 
 def test_foreign_files_are_refused(good, tmp_path):
     content = members(good)
     (tmp_path / "text.dae").write_text("not a model")
-    assert "it is no open DAE" in why(tmp_path / "text.dae")
+    assert "it is not an open DAE" in why(tmp_path / "text.dae")
     assert "it has no dae.json" in why(packed(tmp_path / "a.dae", {"a": b""}))
     assert "does not name the format" in why(packed(tmp_path / "b.dae", {**content, "dae.json": b'{"format": "x"}'}))
     assert "version 4" in why(
@@ -379,12 +379,12 @@ def test_foreign_files_are_refused(good, tmp_path):
 
 
 def test_absurd_sizes_are_refused(good, tmp_path, monkeypatch):
-    monkeypatch.setattr(archive, "MOST", 1 << 10)
+    monkeypatch.setattr(dae_archive, "MOST", 1 << 10)
     assert "its content has more than" in why(good)
 
 
 def test_content_that_contradicts_itself_is_refused(good, tmp_path):
-    first, content = archive.read(good)
+    first, content = dae_archive.read(good)
     head = {k: v for k, v in first.items() if k not in ("format", "version", "sha256", "sha256_of_this")}
     for name, old, new in (
         ("model.json", b'"is":"Plan"', b'"is":"Plane"'),
@@ -392,8 +392,8 @@ def test_content_that_contradicts_itself_is_refused(good, tmp_path):
         ("model.json", b'"expression":1}', b'"expression":123456}'),
         ("places", content["places"][:8], b"\xff" * 8),
     ):
-        archive.write(tmp_path / "b.dae", head, {**content, name: content[name].replace(old, new, 1)})
-        assert "contradicts itself" in why(tmp_path / "b.dae")
+        dae_archive.write(tmp_path / "b.dae", head, {**content, name: content[name].replace(old, new, 1)})
+        assert "is inconsistent" in why(tmp_path / "b.dae")
 
 
 def test_a_file_that_cannot_be_written_is_refused(tmp_path):

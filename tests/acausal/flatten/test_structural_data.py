@@ -21,7 +21,7 @@ from acausal.flatten.instantiate import Instantiation
 from acausal.language import data
 from acausal.study.measuring.case import Case
 from acausal.study.measuring.journal import identity
-from acausal.study.measuring.shipping import pack, unpack
+from acausal.study.measuring.model_pickling import pack, unpack
 
 
 @dataclass(frozen=True, eq=False, repr=False)

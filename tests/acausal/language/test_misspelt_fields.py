@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal import DeclarationError, Model, Scalar, der, guess, observed, output, part
-from acausal.study.measuring.shipping import pack, unpack
+from acausal.study.measuring.model_pickling import pack, unpack
 from components import Body, Prismatic, Revolute
 from tests.acausal.language.test_settings import Swing as Plain
 

@@ -18,7 +18,7 @@ from acausal import (
     structural,
     variable,
 )
-from acausal.study.measuring.shipping import pack, unpack
+from acausal.study.measuring.model_pickling import pack, unpack
 from components import Body, FixedTranslation, Revolute, World
 from components.rotational import Damper
 from models import SpinUp

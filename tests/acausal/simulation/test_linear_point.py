@@ -26,7 +26,7 @@ def told(model: Model, **how: str) -> list[str]:
 def test_a_straight_blade_that_turns_is_no_equilibrium():
     """The hub's angle turns, which is no reason; stretch of the blade is."""
     (text,) = told(Blade(), initial="guesses")
-    assert "no equilibrium" in text
+    assert "not an equilibrium" in text
     assert 'linearize(..., initial="steady"), or initial="static" of beam.' in text
     assert "der(beam.qd[21]) = " in text
     assert "der(hub.phi)" not in text

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import scipy
 
-from acausal.compiler.local import Local
+from acausal.compiler.linearization import PointLinearization
 from acausal.solve.points import Point
 
 Function = Callable[[np.ndarray], np.ndarray]
@@ -36,18 +36,18 @@ class Made:
             reduced=reduced,
             constraints=SimpleNamespace(size=0),
             states=[f"x{k}" for k in range(nx)],
-            kept={},
+            memo={},
             pattern=scipy.sparse.csc_matrix(np.ones((n, n))),
         )
 
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
         return np.asarray(self.f(at.y), dtype=float)
 
-    def local(self, at: Point, flag: float = 0.0) -> Local:
+    def local(self, at: Point, flag: float = 0.0) -> PointLinearization:
         self.seen.append(at.y)
         J = self.compiled.pattern
         columns = np.repeat(np.arange(J.shape[1]), np.diff(J.indptr))
-        return Local(self.values(at), np.asarray(self.jacobian(at.y), dtype=float)[J.indices, columns], J)
+        return PointLinearization(self.values(at), np.asarray(self.jacobian(at.y), dtype=float)[J.indices, columns], J)
 
     def solved(self, at: Point, most: int) -> None:
         """The core has none of these functions."""

@@ -10,7 +10,7 @@ import pytest
 
 import acausal as ac
 from acausal import AcausalWarning, Model, Scalar, chain, der, fixed, guess, parameter, sin, variable
-from acausal.compiler.once import making
+from acausal.compiler.memo import memo_seconds
 from acausal.solve import beginning
 from components import Body, FixedTranslation, Revolute, World
 from models import FourBar
@@ -68,7 +68,7 @@ def test_a_run_again_is_the_same_to_the_last_bit():
 def test_seconds_of_the_beginning_count_in_every_run():
     compiled = ac.compile(FourBar())
     runs = [ac.simulate(compiled, stop_time=0.01, intervals=1) for _ in range(2)]
-    (first,) = compiled.kept[beginning.kept.__wrapped__].values()
+    (first,) = compiled.memo[beginning.kept.__wrapped__].values()
     assert all(run.stats.solve_seconds > first.seconds > 0 for run in runs)
 
 
@@ -78,7 +78,7 @@ def test_what_is_made_for_a_model_counts_as_compiled(method):
     began = clock.perf_counter()
     first, again = (ac.simulate(compiled, stop_time=0.01, intervals=1, method=method).stats for _ in range(2))
     whole = clock.perf_counter() - began
-    at_compiling, made = sum(compiled.seconds.values()), making(compiled)
+    at_compiling, made = sum(compiled.seconds.values()), memo_seconds(compiled)
     assert first.compile_seconds > at_compiling + made / 2 > at_compiling
     assert again.compile_seconds < at_compiling + made / 2
     assert first.compile_seconds - at_compiling + first.solve_seconds < whole

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from acausal.study.effects.cheapest import cheapest, search
-from acausal.study.effects.rows import EffectRow
+from acausal.study.effects.effect_rows import EffectRow
 
 
 def made(

@@ -131,7 +131,7 @@ def test_gaps_of_other_models_are_told():
     found = study(Formulation("engine"), Formulation("off", run=off, dt=(0.1, 0.01)))
     assert [row.limit for row in rows(found, "off")] == ["model", "model"]
     (gap,) = found.gaps()
-    assert gap.startswith("off: another model than the reference, 2.3e-02 of the range away at its best")
+    assert gap.startswith("off: converges to another solution; its smallest error is 2.3e-02 of the range")
     assert gap in found.table()
 
 
@@ -140,9 +140,9 @@ def test_gaps_of_other_models_are_told():
     [
         (stepped.failing, "this run knows why it cannot"),
         (stepped.broken, r"the run of formulation `bad` ended with KeyError: 'nothing' \(.*stepped.py:\d+\)"),
-        (stepped.other, "returned .*, where a Result is needed"),
-        (stepped.short, "returned 8 times up to 2 s, where those were asked for .*: 21 up to 2 s"),
-        (stepped.alone, "without `x`: it needs all that is compared"),
+        (stepped.other, "returned .*; it must return a Result"),
+        (stepped.short, "returned 8 times up to 2 s; it must return the times .*: 21 up to 2 s"),
+        (stepped.alone, "without `x`: it must contain all compared outputs"),
         (stepped.wild, "`x` is not finite from t = 1 s on"),
     ],
 )
@@ -179,7 +179,7 @@ def test_a_run_that_takes_too_long_is_stopped():
         ({"run": 3}, "run is 3; it must be a function"),
         ({"run": stepped.exact, "dt": (0.1,)}, r"must be called as run\(model, stop_time, times, dt=...\)"),
         ({"run": steps}, r"must be called as run\(model, stop_time, times, tolerance=...\): missing"),
-        ({"dt": (0.1,)}, "dt is of a run of its own"),
+        ({"dt": (0.1,)}, "dt needs an integrator of its own"),
         ({"run": steps, "dt": 0.1}, "dt is 0.1; it must be a list of steps"),
         ({"run": steps, "dt": (0.1, -1)}, "dt has -1; a step is"),
         ({"run": steps, "dt": (0.1, True)}, "dt has True; a step is"),

@@ -1,0 +1,72 @@
+"""animate(): several results in one animation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from acausal.animation.frames import FRAMES
+from acausal.errors import DeclarationError
+from acausal.language.call_arguments import checked_arguments
+from acausal.language.value_checks import shown
+from acausal.locks import exclusive
+from acausal.result.animated import AnimationOptions, write
+from acausal.result.lookup import Key
+from acausal.result.result import Result
+
+
+@checked_arguments
+@exclusive
+def animate(
+    results: Mapping[str, Result],
+    path: str | Path,
+    *,
+    frames: int = FRAMES,
+    plots: Sequence[Key] = (),
+    values: Sequence[str] = (),
+    title: str = "",
+    deformation: float = 1.0,
+) -> None:
+    """Animate several runs, side by side or overlaid, to compare them.
+
+    Parameters
+    ----------
+    results : mapping of str to Result
+        Results by the names to show.
+    path : str or Path
+        Name of the file, with a suffix as in `Result.animate`.
+    frames : int
+        Approximate number of frames to which longer results are thinned.
+    plots : sequence of str, Path or Expr
+        Quantities plotted below the picture; the outputs if empty.
+    values : sequence of str
+        Extra quantities by which beams can be coloured, as in `Result.animate`.
+    title : str
+        Title of the picture; the names of the models if not given.
+    deformation : float
+        Scale of deformations, 1 to 1000; the page can change it.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be written, or its suffix is unknown; before anything is computed.
+    DeclarationError
+        If there is no result, or one of them has no times, no model, nothing visible, or no such values.
+
+    Examples
+    --------
+    >>> ac.animate({"rigid": a, "elastic": b}, "crank.html")  # doctest: +SKIP
+    """
+    if isinstance(results, Result):
+        raise DeclarationError(
+            'animate one result with result.animate("run.html"), several with a dictionary, {"rigid": a, "elastic": b}.'
+        )
+    if not isinstance(results, Mapping) or not results or not all(isinstance(r, Result) for r in results.values()):
+        raise DeclarationError(
+            f'results is a dictionary of results by name, {{"rigid": a, "elastic": b}}, not {shown(results)}.'
+        )
+    write(
+        {str(name): result for name, result in results.items()},
+        path,
+        AnimationOptions(frames, plots, values, title, deformation),
+    )
