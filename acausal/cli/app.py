@@ -197,8 +197,8 @@ def linearize(
 
 def _at_start(compiled: CompiledModel) -> AtStart | None:
     """What the ranks of loops show; they need consistent positions."""
+    from acausal.solve.initialization.start import start
     from acausal.solve.problem import Problem
-    from acausal.solve.start.start import start
 
     if not compiled.constraints.size:
         return None

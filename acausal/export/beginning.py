@@ -11,13 +11,13 @@ from acausal.compiler import CompiledModel
 from acausal.errors import ExportError
 from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
+from acausal.solve.initialization.initialize import initial_system
+from acausal.solve.initialization.newton import algebraic
+from acausal.solve.initialization.rank import rank
+from acausal.solve.initialization.start import go_on, start
 from acausal.solve.integrate.order import Spectrum
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.initialize import initial_system
-from acausal.solve.start.newton import algebraic
-from acausal.solve.start.rank import rank
-from acausal.solve.start.start import go_on, start
 from acausal.symbols import scalars, stacked
 
 DEPENDENT = 1e-15  # singular value of rows of length 1 that is rounding

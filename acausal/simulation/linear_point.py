@@ -12,10 +12,10 @@ from acausal.compiler.once import once
 from acausal.errors import caution
 from acausal.flatten.tree import walk
 from acausal.language.functions import time
+from acausal.solve.initialization.at_rest import at_rest, meters, rates_allowed
+from acausal.solve.initialization.rotation import Turning, changes, cyclic, turning
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.at_rest import at_rest, meters, rates_allowed
-from acausal.solve.start.rotation import Turning, changes, cyclic, turning
 
 NAMED = 3  # rates that are named
 

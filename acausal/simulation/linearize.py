@@ -21,11 +21,11 @@ from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
+from acausal.solve.initialization.kept import least_sharpness
+from acausal.solve.initialization.tangent import Elimination, tangent
 from acausal.solve.opening import opening
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import least_sharpness
-from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
 # Of the largest singular value: what a free coordinate leaves is some rounding errors.

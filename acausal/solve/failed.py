@@ -10,13 +10,13 @@ from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, infinite_slope, without_value
 from acausal.solve.checks.meeting import meeting_ahead
+from acausal.solve.initialization.newton import Lost, algebraic
+from acausal.solve.initialization.redundancy import Redundancy, is_singular
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.segment import approached
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.newton import Lost, algebraic
-from acausal.solve.start.redundancy import Redundancy, is_singular
 
 MOST = 3  # states that are named
 CAUSES = POLICY.causes

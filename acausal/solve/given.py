@@ -12,12 +12,12 @@ from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.result.lookup import Quantity
+from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.known import Known
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.newton import algebraic
 from acausal.symbols import scalars
 
 # Names in a message.

@@ -10,10 +10,10 @@ from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.instant import Cycling, Instants
+from acausal.solve.initialization.rotation import is_steady
+from acausal.solve.initialization.start import places_text, start
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.rotation import is_steady
-from acausal.solve.start.start import places_text, start
 
 SPAN = 1.0  # s: conditions by the clock that change later do not matter at the start
 

@@ -27,6 +27,8 @@ from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
 from acausal.solve.failed import failure_text
+from acausal.solve.initialization.initialize import Start
+from acausal.solve.initialization.locked import locked
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure, Kind
@@ -36,8 +38,6 @@ from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.initialize import Start
-from acausal.solve.start.locked import locked
 
 PLAIN = 10  # numbers of each output beside its values
 SHOWN = 5  # times in a message

@@ -52,7 +52,7 @@ SOLVE = (
     "dependent",
     "causes",
     "undecided",
-    "start",
+    "initialization",
     "integrate",
     "events",
     "checks",

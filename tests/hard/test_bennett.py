@@ -13,10 +13,10 @@ import acausal as ac
 from acausal import connect, fixed, parts, piecewise, sin
 from acausal.compiler.constants import Constants
 from acausal.core import library
+from acausal.solve.initialization.kept import Held, kept_again
+from acausal.solve.initialization.start import start
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held, kept_again
-from acausal.solve.start.start import start
 from components import Revolute
 from components.rotational import Torque
 from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneCrank, Row, TwoCranks, energies, joints

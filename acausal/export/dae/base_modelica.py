@@ -18,8 +18,8 @@ from acausal.language import fields as f
 from acausal.language.condition import Condition, Joined
 from acausal.language.functions import initial, time
 from acausal.policy import POLICY
+from acausal.solve.initialization.start import start
 from acausal.solve.problem import Problem
-from acausal.solve.start.start import start
 from acausal.symbols import dense, scalars, stacked
 
 CHOSEN = "// What acausal chooses when it starts a run, here for projection along the constraints, and feedback for a run of 1 s."

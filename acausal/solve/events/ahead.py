@@ -11,6 +11,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
 from acausal.solve.events.stride import Stride
+from acausal.solve.initialization.start import places_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
 from acausal.solve.integrate.march import March
@@ -19,7 +20,6 @@ from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
-from acausal.solve.start.start import places_text
 
 LOOKS = POLICY.looks
 

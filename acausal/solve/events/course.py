@@ -22,13 +22,13 @@ from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.rests import ends_of_rests
 from acausal.solve.events.sampling import Sampling
+from acausal.solve.initialization.determined import undetermined
+from acausal.solve.initialization.newton import Lost
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point, Rows
-from acausal.solve.start.determined import undetermined
-from acausal.solve.start.newton import Lost
 from acausal.solve.undecided import undecided
 
 INSTANTS = POLICY.instants

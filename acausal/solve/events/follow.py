@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.initialization.loop_states import sparing
+from acausal.solve.initialization.loops import close
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.loop_states import sparing
-from acausal.solve.start.loops import close
 
 INSTANTS = POLICY.instants
 

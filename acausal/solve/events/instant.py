@@ -11,12 +11,12 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.events.follow import follow
 from acausal.solve.events.laws import Laws
+from acausal.solve.initialization.assignments import MOST, Assignments
+from acausal.solve.initialization.loops import refuse_open_loops
+from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.assignments import MOST, Assignments
-from acausal.solve.start.loops import refuse_open_loops
-from acausal.solve.start.newton import algebraic
 
 INSTANTS = POLICY.instants
 HUGE = np.finfo(float).max / 8  # sums of some of it are finite

@@ -17,6 +17,8 @@ from acausal.policy import POLICY
 from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
+from acausal.solve.initialization.kept import Held
+from acausal.solve.initialization.newton import terms
 from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.methods import METHODS
@@ -25,8 +27,6 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
-from acausal.solve.start.kept import Held
-from acausal.solve.start.newton import terms
 
 SAMPLING = POLICY.sampling
 

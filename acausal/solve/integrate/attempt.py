@@ -11,6 +11,10 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.once import making
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.initialization.kept import refitted
+from acausal.solve.initialization.loop_states import choose_projection, chosen, least_cosine, suits, worn
+from acausal.solve.initialization.newton import algebraic
+from acausal.solve.initialization.shares import shared
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import refined
 from acausal.solve.integrate.flat import looked_at
@@ -25,10 +29,6 @@ from acausal.solve.integrate.unfit import Reach, unfit_time
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import refitted
-from acausal.solve.start.loop_states import choose_projection, chosen, least_cosine, suits, worn
-from acausal.solve.start.newton import algebraic
-from acausal.solve.start.shares import shared
 
 
 class Integrator:

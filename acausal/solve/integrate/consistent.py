@@ -17,11 +17,11 @@ from acausal.compiler.passes import Pass
 from acausal.core import Settler, Square, library
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.initialization.newton import algebraic, terms
 from acausal.solve.looks import spread
 from acausal.solve.parts import part_of
 from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.newton import algebraic, terms
 
 CONSISTENT = POLICY.consistent
 CANCELS = 16 * np.finfo(float).eps

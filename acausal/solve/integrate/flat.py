@@ -7,10 +7,10 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
+from acausal.solve.initialization.kept import Held
 from acausal.solve.looks import spread
 from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held
 
 LOOPS = POLICY.loops
 

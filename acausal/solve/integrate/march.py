@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.initialization.kept import Held
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.by_core import ByCore
 from acausal.solve.integrate.energy import along
@@ -17,7 +18,6 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import fit_rows
 from acausal.solve.looks import uneven
 from acausal.solve.points import Point, Rows
-from acausal.solve.start.kept import Held
 
 LOOKS = POLICY.looks
 

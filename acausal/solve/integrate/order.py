@@ -15,9 +15,9 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
+from acausal.solve.initialization.tangent import of_states, tangent
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.tangent import of_states, tangent
 
 ORDER = POLICY.order
 

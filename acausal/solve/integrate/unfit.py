@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.initialization.kept import Held
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held
 
 LOOPS = POLICY.loops
 

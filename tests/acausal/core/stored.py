@@ -12,10 +12,10 @@ import numpy as np
 from acausal.core import End, Rodas, StoredModel
 from acausal.core.build.compiling import CORE, FLAGS
 from acausal.policy import POLICY
+from acausal.solve.initialization.loop_states import choose_projection
+from acausal.solve.initialization.start import go_on, start
 from acausal.solve.integrate.stored import stored
 from acausal.solve.problem import Problem
-from acausal.solve.start.loop_states import choose_projection
-from acausal.solve.start.start import go_on, start
 from models import SCENES
 from tests.shared import CONTRACT, compiled
 

@@ -9,8 +9,8 @@ import pytest
 
 import acausal as ac
 from acausal.core import library
-from acausal.solve.start import complete
-from acausal.solve.start.redundancy import Redundancy
+from acausal.solve.initialization import complete
+from acausal.solve.initialization.redundancy import Redundancy
 from models import Bricard, FourBar
 
 

@@ -1,0 +1,41 @@
+"""Solve the initial system block by block: each begins from what is right already, where all at once are too far off."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal.errors import InitializationError
+from acausal.solve.initialization.newton import InitialSystem, newton
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.structure.blt import block_triangular
+from acausal.structure.matching import maximum_matching
+
+
+def by_blocks(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
+    """Return a solution of the initial system, solved in block lower triangular form; None where that finds none.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    system : InitialSystem
+        As many equations as unknowns.
+    at : Point
+        Guesses.
+    """
+    part = system.block(problem.compiled.pattern, problem.nx)
+    rows: list[list[int]] = [[] for _ in part.rows]
+    for row, column in part.places.T.tolist():
+        rows[row].append(column)
+    matched = maximum_matching(rows, len(part.columns)).variable_of
+    if len(part.rows) != len(part.columns) or -1 in matched:
+        return None
+    every, none = np.arange(problem.nx + problem.nz), np.empty(0, int)
+    try:
+        for block in block_triangular(rows, [(variable, row) for row, variable in enumerate(matched)]):
+            known = np.setdiff1d(every, part.columns[list(block.variables)])
+            at = newton(problem, InitialSystem(system.rows[list(block.equations)], none, known), at, 1.0)
+        return newton(problem, system, at, 1.0)
+    except InitializationError:
+        return None

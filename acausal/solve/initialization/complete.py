@@ -1,0 +1,186 @@
+"""What completes the initial system, by ranks at a point where the loops are closed instead of by patterns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+import scipy
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError
+from acausal.policy import POLICY
+from acausal.solve.initialization.conditions import soft
+from acausal.solve.initialization.kept import refitted
+from acausal.solve.initialization.loop_states import choose_projection
+from acausal.solve.initialization.loops import close, refuse_open_loops
+from acausal.solve.initialization.newton import InitialSystem
+from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
+from acausal.solve.initialization.redundancy import Redundancy, find_redundancy
+from acausal.solve.initialization.shares import shared
+from acausal.solve.initialization.words import missing_text
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+
+LOOPS = POLICY.loops
+
+
+def closed_guess(problem: Problem, at: Point, given: Mapping[int, int]) -> tuple[Point, Redundancy]:
+    """Close the loops near the guesses, find what is redundant, and choose a projection.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        Guesses of the states.
+    given : mapping of int to int
+        States that conditions give -> these; what soft ones give yields a little where the loops cannot close without.
+
+    Raises
+    ------
+    InitializationError
+        If a loop cannot close.
+    """
+    held = np.array(sorted(given), dtype=int)
+    yielding = [state for state in held.tolist() if given[state] in soft(problem.compiled)]
+    closed, mismatch = close(problem, at, held, yielding=np.array(yielding, dtype=int))
+    if not mismatch <= LOOPS.closed:
+        refuse_open_loops(problem, closed, held)
+    redundancy = find_redundancy(problem, closed)
+    closures = problem.compiled.constraints.closures
+    counts = np.array([k not in redundancy.dropped for k in closures], dtype=float)
+    closed = replace(closed, constants=replace(closed.constants, closures=counts))
+    closed = replace(closed, constants=refitted(problem, closed))
+    closed = replace(closed, constants=shared(problem, closed))
+    left = {k for k, on in zip(closures, closed.constants.closures, strict=True) if not on}
+    redundancy = replace(redundancy, dropped=tuple(sorted(left | set(redundancy.dropped) - set(closures))))
+    return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy
+
+
+def ranked(
+    problem: Problem, at: Point, direct: Mapping[int, int], conditions: list[int], refuse: bool, flag: float = 1.0
+) -> InitialSystem:
+    """Complete the initial system by the ranks of its Jacobian.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        A point where the loops are closed.
+    direct : mapping of int to int
+        Conditions that give a state each, which is known then.
+    conditions : list of int
+        Other rows in order of importance; counted from the first algebraic equation, those of derivatives are negative and
+        need not hold where others determine all.
+    refuse : bool
+        Whether freedoms that are left are refused or take their guesses.
+    flag : float, optional
+        1 while the conditions of the start hold, 0 in equilibrium.
+    """
+    compiled, c, nx, nz = problem.compiled, problem.compiled.constraints, problem.nx, problem.nz
+    held = sorted(direct.values())
+    free = np.setdiff1d(np.arange(nx), held)
+    rows = nx + np.array(conditions, dtype=int)
+    M, C = _reduced(problem, at, free, rows, flag)
+    used, surplus = _independent(M, C)
+    if surplus:
+        # A condition can lack influence at one position without lacking it around.
+        shake = POLICY.ranks.shake * np.random.default_rng(0).standard_normal(len(free))
+        moved = at.x.copy()
+        moved[free] += shake * problem.reaches[free]
+        M, C = _reduced(problem, replace(at, x=moved), free, rows, flag)
+        used, surplus = _independent(M, C)
+    determined = (M.shape[0] if is_regular(M) else rank(M.toarray())) + len(used)
+    left = _left(compiled, np.vstack([M.toarray(), C[used]]), determined, free) if determined < len(free) else []
+    if left and refuse:
+        raise InitializationError(missing_text(compiled, left))
+    plan = compiled.reduced.plan
+    position = {e: k for k, e in enumerate(plan.residuals)}
+    off = {
+        position[row]
+        for k, on in zip(c.closures, at.constants.closures, strict=True)
+        if not on
+        for row in plan.constrained.constraints[k].rows
+    }
+    equations = [k for k in range(nz) if k not in off]
+    demanded = [conditions[k] for k in surplus if conditions[k] >= 0 and conditions[k] not in soft(compiled)]
+    known = sorted([*held, *left, *(nx + c.multipliers).tolist()])
+    solved = [*equations, *(conditions[k] for k in used)]
+    return InitialSystem(np.array(solved, int), np.array(demanded, int), np.array(known, int), tuple(direct.items()))
+
+
+def _reduced(
+    problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray, flag: float
+) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
+    """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
+    nx, nz = problem.nx, problem.nz
+    M, size = problem.gradients(at)[:, free], problem.reaches[free]
+    if not rows.size:
+        return M, np.zeros((0, len(free)))
+    J = problem.local(at, flag).jacobian.tocsc()
+    inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
+    dz = -factored(inner, problem.nominal[nx:], POLICY.ranks.rank)(right) if nz else right
+    return M, (J[rows][:, free].toarray() + J[rows][:, nx:] @ dz) * size
+
+
+def _independent(M: scipy.sparse.csc_matrix, C: np.ndarray) -> tuple[list[int], list[int]]:
+    """Conditions that are independent of the constraints and those before them (Gram and Schmidt)."""
+    if not len(C):
+        return [], []
+    free, basis = outside(M), np.zeros((0, C.shape[1]))
+    used, surplus = list[int](), list[int]()
+    for k in range(len(C)):
+        size = np.linalg.norm(C[k])
+        v = C[k] / size if size else C[k]
+        for _ in range(2):
+            v = free(v)
+            v = v - basis.T @ (basis @ v)
+        rest = np.linalg.norm(v)
+        if rest > POLICY.ranks.independent:
+            basis = np.vstack([basis, v / rest])
+            used.append(k)
+        else:
+            surplus.append(k)
+    return used, surplus
+
+
+def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.ndarray) -> list[int]:
+    """States that nothing determines: those along which what is left free moves most, guessed ones first."""
+    null = null_space(rows, independent)
+    if not len(null):
+        return []
+    told, plan = compiled.reduced.flat.unknowns.guessed, compiled.reduced.plan
+    of = {q.state: q.coordinate for q in plan.constrained.projections}
+    guessed = [bool(told[of.get(v, v)]) if of.get(v, v) < len(told) else False for v in plan.states]
+    weight = np.where(np.array(guessed)[free], POLICY.ranks.guessed, 1.0)
+    order = pivots(null * weight)[: len(null)]
+    return sorted(int(free[k]) for k in order)
+
+
+def leave_singular(problem: Problem, at: Point) -> Point:
+    """Continue from a singular position along the velocity, so short a distance that accelerations do not matter."""
+    x = at.x
+    pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
+    moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
+    coordinates, rates = pairs[moving].T
+    sizes = problem.reaches
+    if not np.any(np.abs(x[rates]) > LOOPS.rest * sizes[rates]):
+        raise InitializationError(
+            f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops "
+            "continue. Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
+        )
+    later = LOOPS.away / float(np.max(np.abs(x[rates]) / sizes[coordinates]))
+    moved = x.copy()
+    moved[coordinates] += later * x[rates]
+    left = close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]
+    allowed = LOOPS.stays * np.max(np.abs(x[rates]) / sizes[rates]) * sizes[rates]
+    if np.any(np.abs(left.x[rates] - x[rates]) > allowed):
+        raise InitializationError(
+            f"the start at t = {at.time:g} s is a singular position, where several branches meet, and these velocities are "
+            "tangent to none of them. Give those of one branch (guess(...) leaves the joints that follow free), or start "
+            "0.01 rad beside it."
+        )
+    return left

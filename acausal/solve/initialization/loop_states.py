@@ -1,0 +1,269 @@
+"""Which coordinates of loops are states, or along which directions they are projected, once numbers are known."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+
+import numpy as np
+import scipy
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.constants import Constants
+from acausal.compiler.once import once
+from acausal.policy import POLICY
+from acausal.solve.initialization.rank import columns_by_pivots, pivots
+from acausal.solve.initialization.tangent import Elimination
+from acausal.solve.parts import Part
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
+from acausal.solve.reach import levels_of
+
+LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
+
+# Of each part, and of those of its rows that are given as bytes.
+Spaces = dict[tuple[Part, bytes], np.ndarray]
+
+
+def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
+    """Return the constants of a segment with a new choice of D at a consistent point.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        A consistent point, with the constants of the segment before.
+    spare : bool
+        Whether stiff coordinates count less; the algebraic unknowns must then be consistent, too.
+    moves : bool
+        False makes some coordinates follow from the others (pivoted choice of states), True projects along the constraint
+        Jacobian as it changes on the way, stiff coordinates the less.
+    """
+    moving = _moving(problem, at, spare)
+    return moving if moves else chosen(problem, replace(at, constants=moving))
+
+
+def chosen(problem: Problem, at: Point) -> Constants:
+    """Return the constants with which some coordinates follow from the others, at a point whose projection moves."""
+    c = problem.compiled.constraints
+    J, sizes = _held(problem, Rows.of(at), at.constants)
+    D = J[0] * at.constants.D / sizes**2
+    selection = _select(levels_of(problem.compiled), D, c.counting(at.constants.closures))
+    return replace(at.constants, moves=False, D=selection * sizes)
+
+
+def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
+    c = problem.compiled.constraints
+    rows, columns = c.entries
+    on = c.counting(at.constants.closures)
+    # States count in their sizes: the least change of them, J' over their squares, is the way to the constraints.
+    J, sizes = _held(problem, Rows.of(at), at.constants)
+    J = J[0] * on[rows]
+    stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
+    weights = _spared(levels_of(problem.compiled), J, stiffness[columns], problem.feedback)
+    length = np.sqrt(np.bincount(rows, (J * weights) ** 2, minlength=c.size))
+    length = np.where(length > 0, length, 1.0)[rows]
+    return replace(at.constants, moves=True, D=on[rows] * weights * sizes**2 / length)
+
+
+@np.errstate(all="ignore")
+def sparing(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
+    """Return sizes of the states with which loops close, shape (nx,): stiff ones are small, where others suffice to close them.
+
+    Stiff is what is so much stiffer than these.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        A consistent point.
+    held : array of int
+        States that are given, which do not move.
+    """
+    c, sizes = problem.compiled.constraints, problem.reaches.copy()
+    rows, columns = c.entries
+    J = _held(problem, Rows.of(at), at.constants)[0][0] * c.counting(at.constants.closures)[rows]
+    J[np.isin(columns, held)] = 0.0
+    stiffness = _stiffness(problem, at)[columns]
+    largest = float(np.max(stiffness, initial=0.0))
+    for threshold in largest * 10.0 ** -np.arange(LOOPS.decades, -1, -1):
+        soft = J * (stiffness <= threshold)
+        closes = np.array_equal(np.unique(rows[soft != 0]), np.unique(rows[J != 0]))
+        if closes and _transversality(levels_of(problem.compiled), J[None], soft)[0] >= LOOPS.worn:
+            sizes[columns[stiffness > LOOPS.stiffer * threshold]] *= LOOPS.stiff
+            break
+    return sizes
+
+
+@np.errstate(all="ignore")
+def independent(problem: Problem, at: Point) -> tuple[str, ...]:
+    """Names of the states that do not follow from others, at a point with the projection that moves."""
+    follows = set(problem.compiled.constraints.entries[1][chosen(problem, at).D != 0].tolist())
+    return tuple(name for k, name in enumerate(problem.compiled.states) if k not in follows)
+
+
+def _stiffness(problem: Problem, at: Point) -> np.ndarray:
+    """How stiff each coordinate is, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
+
+    Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
+    """
+    left = _unprojected(problem.compiled)
+    rates, coordinates = left.own.rows, left.own.columns
+    stiffness = np.zeros(problem.nx)
+    with suppress(RuntimeError):  # singular: nothing is stiff
+        slopes = left.diagonal(problem.local(at).entries)
+        stiffness[coordinates] = stiffness[rates] = np.abs(slopes)
+    return stiffness
+
+
+@once
+def _unprojected(compiled: CompiledModel) -> Elimination:
+    """What is left of the derivatives of the rates by their coordinates, see `_stiffness`."""
+    plan, c, nx = compiled.reduced.plan, compiled.constraints, compiled.nx
+    lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
+    equations = [nx + k for k, e in enumerate(plan.residuals) if e not in lower]
+    unknowns = np.setdiff1d(np.arange(nx, nx + compiled.nz), nx + c.multipliers)
+    place = {v: k for k, v in enumerate(plan.states)}
+    of = {q.coordinate: place[q.state] for q in plan.constrained.projections}
+    pairs = [(of[q.coordinate], of[q.rate]) for q in plan.constrained.projections if q.rate in of]
+    coordinates, rates = np.array(pairs, dtype=int).reshape(-1, 2).T
+    return Elimination.of(compiled.pattern, rates, coordinates, equations, unknowns)
+
+
+def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
+    """Entries of unit vectors in place of D: one coordinate for each constraint of a level, by pivots."""
+    selection, follows = np.zeros(len(D)), np.full(len(on), -1)
+    rows, columns, sizes = (np.concatenate(k) for k in zip(*(_candidates(p, D, on) for p in levels), strict=True))
+    if not rows.size:
+        return selection
+    (row_of, row), (column_of, column) = (np.unique(k, return_inverse=True) for k in (rows, columns))
+    # A weight of 0 would count as none; on a grid their sums are exact: the search may turn for ever where they round.
+    weights = np.ceil((1 - np.log(sizes)) / LOOPS.grid) * LOOPS.grid
+    weight = scipy.sparse.csr_matrix((weights, (row, column)))
+    pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
+    follows[row_of[pairs[0]]] = column_of[pairs[1]]
+    for part in levels:
+        selection[part.entries] = follows[part.rows[part.places[0]]] == part.columns[part.places[1]]
+    return selection
+
+
+def _candidates(part: Part, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Constraints of a part, coordinates that are as many and hold them best, and the sizes of their entries."""
+    active = np.flatnonzero(on[part.rows])[: len(part.columns)]
+    if len(active) > SMALL:
+        block = part.sparse(D)[active]
+        order = columns_by_pivots(block)
+        size = abs(block[:, order]).tocoo()
+        size.eliminate_zeros()
+        row, column, sizes = size.row, size.col, size.data
+    else:
+        block = part.dense(D)[active]
+        order = pivots(block)[: len(active)] if active.size else np.zeros(0, dtype=int)
+        row, column = (k.ravel() for k in np.indices((len(active), len(order))))
+        # Singular ones have a matching too.
+        sizes = np.maximum(np.abs(block[row, order[column]]), np.finfo(float).tiny)
+    return part.rows[active[row]], part.columns[order[column]], sizes
+
+
+def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
+    """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
+
+    Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
+    """
+    known: Spaces = {}
+    threshold = max(float(np.square(feedback)), np.finfo(float).tiny)  # in runs over 1e163 s the square would vanish
+    for decade in range(1, LOOPS.decades + 1) if np.any(stiffness) else ():
+        weights = 1 / (1 + stiffness / (10.0**decade * threshold))
+        if _transversality(levels, J[None], J * weights, known)[0] >= LOOPS.spared:
+            return weights
+    return np.ones(len(stiffness))
+
+
+def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray, known: Spaces | None = None) -> np.ndarray:
+    """Cosine of the largest angle between the row spaces of J, shape (n, entries), and D: 1 is best, 0 is singular.
+
+    `known` keeps the row spaces of J for the next D.
+    """
+    least, known = np.ones(len(J)), {} if known is None else known
+    for part in levels:
+        chosen = part.dense(D)
+        on = np.linalg.norm(chosen, axis=1) > 0
+        if not on.any():
+            continue
+        if len(on) > SMALL:
+            to = part.sparse(D)[on]
+            found = np.array([1 / _oblique(part.sparse(row)[on], to) for row in J])
+        else:
+            if (part, rows := on.tobytes()) not in known:
+                known[part, rows] = _basis(part.dense(J)[..., on, :])
+            found = np.linalg.svd(np.swapaxes(known[part, rows], -1, -2) @ _basis(chosen[on]), compute_uv=False)[
+                ..., -1
+            ]
+        least = np.fmin(least, found)
+    return least
+
+
+def _basis(rows: np.ndarray) -> np.ndarray:
+    """Orthonormal columns that span the same as some rows."""
+    return np.linalg.qr(np.swapaxes(rows, -1, -2))[0]
+
+
+def _oblique(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> float:
+    """Norm of the projector D'(J D')^-1 J along the surface of J: one over the cosine of the angle (Szyld 2006)."""
+    try:
+        inner = scipy.sparse.linalg.splu((J @ D.T).tocsc())
+    except RuntimeError:
+        return np.inf
+    n = J.shape[1]
+
+    def there(v: np.ndarray) -> np.ndarray:
+        return D.T @ inner.solve(J @ v)
+
+    def back(v: np.ndarray) -> np.ndarray:
+        return J.T @ inner.solve(D @ v, "T")
+
+    projector = scipy.sparse.linalg.LinearOperator((n, n), matvec=there, rmatvec=back, dtype=float)
+    options = {"return_singular_vectors": False, "v0": np.cos(np.arange(n)), "tol": LOOPS.angles}
+    return float(scipy.sparse.linalg.svds(projector, 1, **options)[0])
+
+
+def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
+    """How well the coordinates that were chosen for a segment still suit each of n positions: 1 is best, 0 is singular.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    rows : Rows
+        Positions of the segment.
+    constants : Constants
+        Those of the segment.
+    """
+    J, sizes = _held(problem, rows, constants)
+    return _transversality(levels_of(problem.compiled), J, constants.D / sizes)
+
+
+def fits(problem: Problem, at: Point) -> bool:
+    """Whether the coordinates that follow from others still suit a point, as well as the best choice might but for a factor."""
+    return bool(worn(problem, Rows.of(at), at.constants)[0] >= least_cosine(problem))
+
+
+def suits(problem: Problem, at: Point) -> bool:
+    """Whether the projection of a point is one that moves, and suits the point."""
+    if not at.constants.moves:
+        return False
+    J, sizes = _held(problem, Rows.of(at), at.constants)
+    D = J[0] * at.constants.D / sizes**2
+    return bool(_transversality(levels_of(problem.compiled), J, D)[0] >= least_cosine(problem))
+
+
+def _held(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
+    """Constraint Jacobians for states in their sizes, and these, as `Constraints.entries` has them."""
+    return problem.held_in_sizes(rows.x, rows.times, constants.vector)
+
+
+def least_cosine(problem: Problem) -> float:
+    """Cosine below which a projection is worn; where n coordinates move alike, that of the best choice is 1/sqrt(n)."""
+    return min(LOOPS.worn, LOOPS.fit / problem.nx**0.5)

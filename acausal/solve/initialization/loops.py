@@ -1,0 +1,290 @@
+"""Close the loops: coordinates that satisfy the constraints, near the guesses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
+from acausal.errors import InitializationError
+from acausal.flatten.tree import walk
+from acausal.language.component import Component
+from acausal.policy import POLICY
+from acausal.solve.initialization.conditions import giving, soft
+from acausal.solve.initialization.descent import Matrix, Residuals, descend
+from acausal.solve.initialization.directions import differing
+from acausal.solve.initialization.rank import least_norm
+from acausal.solve.parts import part_of
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+
+LOOPS = POLICY.loops
+
+
+@once
+def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
+    """Residuals and states of each level of the constraints, positions first."""
+    c = compiled.constraints
+    depth = max((len(r) for r in c.rows), default=0)
+    found = []
+    for d in range(depth, 0, -1):
+        rows = [r[len(r) - d] for r in c.rows if len(r) >= d]
+        inside = np.isin(c.entries[0], rows)
+        found.append((rows, np.unique(c.entries[1][inside])))
+    return found
+
+
+def close(
+    problem: Problem,
+    at: Point,
+    held: np.ndarray,
+    positions: bool = False,
+    sizes: np.ndarray | None = None,
+    yielding: np.ndarray | None = None,
+) -> tuple[Point, float]:
+    """Change the coordinates as little as possible so that the constraints hold, level by level.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        Guesses of the states.
+    held : array of int
+        States that are given.
+    positions : bool
+        True for the lowest level of each constraint alone: positions, or velocities where a part states these.
+    sizes : array, optional
+        Sizes over which changes of the states count, shape (nx,); those in loops if not given.
+    yielding : array of int, optional
+        States among those that are held which change a little where the loops cannot close without.
+
+    Returns
+    -------
+    at : Point
+        With the states.
+    mismatch : float
+        Largest residual, over its size.
+    """
+    at = _with_value(problem, at, held)
+    mismatch, sizes = 0.0, problem.reaches if sizes is None else sizes
+    is_lowest = problem.compiled.constraints.is_lowest
+    for depth, (rows, columns) in enumerate(levels(problem.compiled)):
+        if positions and not any(is_lowest[rows]):
+            continue
+        rows = [row for row in rows if is_lowest[row]] if positions else rows
+        free = np.setdiff1d(columns, held)
+        own = np.intersect1d(columns, np.empty(0, int) if yielding is None else yielding)
+        if own.size and (found := _taken_up(problem, at, rows, free, own, depth > 0, sizes)):
+            at, left = found
+        else:
+            at, left = _solve(problem, at, rows, free, depth > 0, sizes)
+        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.reaches)):
+            # Near a singular position rates are known only as well as the root of the positions.
+            at, left = _solve(problem, at, rows, columns, depth > 0, sizes)
+        mismatch = max(mismatch, left)
+        if left > LOOPS.closed:
+            break
+    return at, mismatch
+
+
+def _with_value(problem: Problem, at: Point, held: np.ndarray) -> Point:
+    """Disturb guesses at which a constraint has no value, as for frames to be joined that are half a turn apart."""
+    if np.all(np.isfinite(problem.constraints(at)[0])):
+        return at
+    free = np.setdiff1d(problem.compiled.constraints.states, held)
+    for k, size in enumerate(LOOPS.attempts):
+        start = at.x[free] + size * problem.reaches[free] * np.random.default_rng(k).standard_normal(len(free))
+        tried = _with(at, free, start)
+        if np.all(np.isfinite(problem.constraints(tried)[0])):
+            return tried
+    return at
+
+
+def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
+    """Return the point with other values of some states."""
+    x = at.x.copy()
+    x[free] = u
+    return replace(at, x=x)
+
+
+def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
+    """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
+    c, (size, rigid) = problem.compiled.constraints, problem.sized(at)
+    part, of_entry = part_of(c.pattern, rows, free), np.where(rigid, np.inf, size)[c.pattern.indices]
+    matrix = part.sparse if _are_many(rows) else part.dense
+
+    def evaluate(u: np.ndarray) -> tuple[np.ndarray, Matrix]:
+        value, entries = c.values(_with(at, free, u).x, problem.p, at.time, at.constants.vector)
+        return value[rows] / size[rows], matrix(entries / of_entry)
+
+    return evaluate
+
+
+def _are_many(rows: list[int]) -> bool:
+    return len(rows) > POLICY.ranks.small
+
+
+def _taken_up(
+    problem: Problem,
+    at: Point,
+    rows: list[int],
+    free: np.ndarray,
+    soft: np.ndarray,
+    linear: bool,
+    sizes: np.ndarray,
+) -> tuple[Point, float] | None:
+    """Close one level near the guesses; where it misses by little without the soft states, these change as little as possible.
+
+    Returns
+    -------
+    at, left
+        As of `_solve`; None where it misses by much.
+    """
+    near, left = _solve(problem, at, rows, free, linear, sizes, LOOPS.attempts[:1])
+    size = 1.0
+    if linear and LOOPS.closed < left:  # rates may miss each other by a part of what moves
+        u = near.x[free]
+        size = float(np.max(abs(_residuals(problem, near, rows, free)(u)[1]) @ np.abs(u), initial=0.0))
+    if LOOPS.closed < left <= LOOPS.taken * size:
+        near, left = _solve(problem, near, rows, np.union1d(free, soft), linear, sizes, LOOPS.attempts[:1])
+    return (near, left) if left <= LOOPS.closed else None
+
+
+def _solve(
+    problem: Problem,
+    at: Point,
+    rows: list[int],
+    free: np.ndarray,
+    linear: bool,
+    sizes: np.ndarray,
+    attempts: tuple[float, ...] = LOOPS.attempts,
+) -> tuple[Point, float]:
+    """Close one level; where it is linear in its coordinates, a step of least change is enough."""
+    evaluate = _residuals(problem, at, rows, free)
+    left = float(np.max(np.abs(evaluate(at.x[free])[0]), initial=0.0))
+    if not free.size or left == 0:
+        return at, left
+    best, scale = at.x[free], sizes[free]
+    if linear:
+        best, left = _polish(evaluate, best, scale)
+    smallest = left if np.isfinite(left) else np.inf
+    for k, size in enumerate(attempts):
+        if smallest <= LOOPS.closed:
+            break
+        start = at.x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
+        if not np.all(np.isfinite(evaluate(start)[0])):
+            continue
+        u = descend(evaluate, start, scale)
+        left = float(np.max(np.abs(evaluate(u)[0])))
+        if left < smallest:
+            best, smallest = u, left
+    best, left = _polish(evaluate, best, scale)
+    return _with(at, free, best), left
+
+
+def tighten(problem: Problem, at: Point) -> Point:
+    """Close loops that are nearly closed, by a few steps of least change; where they do not lead there, as `close` does."""
+    tight = polished(problem, at, np.empty(0, int))
+    return close(problem, at, np.empty(0, int))[0] if tight is None else tight
+
+
+def polished(problem: Problem, at: Point, held: np.ndarray) -> Point | None:
+    """Close loops by a few steps of least change of what is not held; None where they do not lead there."""
+    tight = at
+    for rows, columns in levels(problem.compiled):
+        free = np.setdiff1d(columns, held)
+        found, left = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.reaches[free])
+        if not left <= LOOPS.closed:
+            return None
+        tight = _with(tight, free, found)
+    return tight
+
+
+def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float]:
+    """Take Gauss-Newton steps of least norm down to rounding; return the largest residual as well."""
+    value, J = evaluate(u)
+    for _ in range(LOOPS.polishing):
+        tried = u + least_norm(J, scale, POLICY.ranks.polish)(-value)
+        there, ahead = evaluate(tried)
+        if not np.max(np.abs(there)) < np.max(np.abs(value), initial=0.0):
+            break
+        u, value, J = tried, there, ahead
+    return u, float(np.max(np.abs(value), initial=0.0))
+
+
+def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str = "") -> None:
+    """Raise InitializationError with the mismatch of every loop that does not close; `jump` tells where states jumped."""
+    compiled = problem.compiled
+    c, flat = compiled.constraints, compiled.reduced.flat
+    value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
+    lines, directions = list[str](), dict[str, None]()
+    for number, loop in enumerate(flat.loops.cuts):
+        own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
+        levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
+        apart = [float(np.max(value[rows], initial=0.0)) if rows else 0.0 for rows in levels_of]
+        wide = [bool(np.any(gap[rows] > LOOPS.closed)) if rows else False for rows in levels_of]
+        how = [f"miss each other by {apart[0]:.4g} m or rad", f"move apart at {apart[1]:.4g} m/s or rad/s"]
+        for text, open_ in zip(how, wide, strict=True):
+            if open_:
+                through = f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop"
+                lines.append(f"  {loop.a} and {loop.b} ({loop.where}) {text}; {through}")
+                directions[differing(compiled, loop.parts)] = None
+                break
+    for k, rows in enumerate(c.rows):
+        base = compiled.reduced.plan.constrained.constraints[k].base
+        if k not in c.of_loops and np.max(gap[list(rows)]) > LOOPS.closed:
+            lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
+    parts = soft_parts(compiled, held)
+    given = [compiled.states[k] for k in np.intersect1d(held, c.states) if k not in parts]
+    if lines and np.max(gap) > LOOPS.closed:
+        head = _open_head(at.time, len(lines), bool(given or parts))
+        mend = " ".join([_open_mend(given), *_soft_mend(list(parts.values()))])
+        if jump:
+            names = ", ".join(f"`{name}` = {at.x[compiled.states.index(name)]:.4g}" for name in given)
+            loops, they = (
+                ("this loop does" if len(lines) == 1 else "these loops do"),
+                "it" if len(given) == 1 else "them",
+            )
+            head = f"{loops} not close with {names}, where {jump} lets {they} jump:"
+            mend = f"Let {they} jump to what the loop can reach."
+        raise InitializationError("\n".join([head, *lines, *filter(None, directions), mend]))
+
+
+def _open_head(time: float, n: int, fixed: bool) -> str:
+    one, at = n == 1, f"at t = {time:g} s"
+    if fixed:
+        return f"{'this loop does' if one else 'these loops do'} not close {at} with the start values that are fixed:"
+    which = "this loop closes" if one else "these loops close"
+    return f"{at} no position of the joints was found in which {which}:"
+
+
+def soft_parts(compiled: CompiledModel, held: np.ndarray) -> dict[int, Component]:
+    """Components whose soft conditions give states, by these."""
+    conditions, nz = compiled.reduced.flat.equations.initial, compiled.nz
+    of = {state: conditions[row - nz].origin.path for row, state in giving(compiled).items() if row in soft(compiled)}
+    parts = {part._path: part for part in walk(compiled.tree)}
+    return {state: parts[of[state]] for state in np.intersect1d(held, list(of)).astype(int).tolist()}
+
+
+def _soft_mend(parts: list[Component]) -> list[str]:
+    """How each part is told to start without its soft conditions."""
+    told = [f"`{p._path}`: {type(p).__name__}({p.without_soft})" for p in dict.fromkeys(parts) if p.without_soft]
+    if not told:
+        return []
+    return [
+        f'Or leave their shape at the start to the loops: {", ".join(told)}, with simulate(..., initial="guesses").'
+    ]
+
+
+def _open_mend(fixed: list[str]) -> str:
+    if not fixed:
+        return "Check lengths, or give better guesses of the joints' positions."
+    names = ", ".join(f"`{name}`" for name in fixed)
+    what = "Free it" if len(fixed) == 1 else "Free one of them"
+    return (
+        f"Start values are fixed for {names}. {what}, guess(...) instead of fixed(...); or check lengths and the guesses "
+        "of the other joints' positions."
+    )

@@ -1,0 +1,207 @@
+"""Damped Newton iteration on the initial system, and a homotopy for cases where it fails."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+import scipy
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.local import Local
+from acausal.compiler.once import once
+from acausal.errors import InitializationError
+from acausal.policy import POLICY
+from acausal.solve.initialization.rank import factored
+from acausal.solve.initialization.words import lost_text, worst_lines
+from acausal.solve.parts import Part, part_of
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
+
+NEWTON = POLICY.newton
+Solver = Callable[[np.ndarray], np.ndarray]
+
+
+class Lost(InitializationError):
+    """The iteration found no solution; `at` is where it ended, `flag` is 1 for the initial system, `worst` what does not hold."""
+
+    def __init__(self, text: str, at: Point, flag: float, worst: str = "") -> None:
+        super().__init__(text)
+        self.at, self.flag, self.worst = at, flag, worst
+
+
+@dataclass(frozen=True)
+class InitialSystem:
+    """Which conditions complete the equations at the start.
+
+    Parameters
+    ----------
+    rows : array of int
+        Rows of (alg, conditions) that are solved, as many as unknowns.
+    surplus : array of int
+        Rows that must then hold by themselves.
+    known : array of int
+        States that are not solved for: they take their guesses, or follow from a condition at once.
+    direct : tuple of (int, int)
+        (row, state) of linear conditions that hold one state and nothing else.
+    """
+
+    rows: np.ndarray
+    surplus: np.ndarray
+    known: np.ndarray
+    direct: tuple[tuple[int, int], ...] = ()
+    _blocks: list[Part] = field(default_factory=list, repr=False)
+
+    @cached_property
+    def given(self) -> np.ndarray:
+        """The rows of `direct`, and their states, shape (2, n)."""
+        return np.array(self.direct, dtype=int).reshape(-1, 2).T
+
+    def block(self, J: scipy.sparse.csc_matrix, first: int) -> Part:
+        """Its part of the Jacobian of a model, the first `first` of whose rows are derivatives of states."""
+        if not self._blocks:
+            free = np.setdiff1d(np.arange(J.shape[1]), self.known)
+            self._blocks.append(part_of(J, first + self.rows, free))
+        return self._blocks[0]
+
+
+def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
+    """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if it leads nowhere."""
+    first = problem.values(at, 1.0)[system.rows + problem.nx].copy()
+    s, step = 0.0, NEWTON.first
+    while s < 1:
+        target = min(1.0, s + step)
+        try:
+            at = newton(problem, system, at, 1.0, (1 - target) * first)
+            s, step = target, NEWTON.growth * step
+        except InitializationError:
+            step /= NEWTON.shrinkage
+            if step < NEWTON.shortest:
+                return None
+    return at
+
+
+def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offset: np.ndarray | float = 0.0) -> Point:
+    """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
+    nx, y = problem.nx, at.y
+    part = system.block(problem.compiled.pattern, nx)
+    rows, free = part.rows, part.columns
+    if not free.size:
+        return at
+    scale = problem.nominal[free]
+
+    def residual(y: np.ndarray) -> np.ndarray:
+        return problem.values(at.with_y(y), flag)[rows] - offset
+
+    def lost(value: np.ndarray) -> Lost:
+        text = lost_text(problem.compiled, value, system.rows, system.surplus, at.time)
+        return Lost(text, at.with_y(y), flag, "\n".join(worst_lines(problem.compiled, value, system.rows)))
+
+    value = residual(y)
+    if not np.all(np.isfinite(value)):
+        raise lost(value)
+    for _ in range(NEWTON.iterations):
+        local = problem.local(at.with_y(y), flag)
+        # Where the block is singular, the step of least norm, if there is one, leads on.
+        order = "NATURAL" if free[0] == nx else "COLAMD"
+        solve = factored(part.sparse(local.entries), scale, POLICY.ranks.least_norm, order)
+        step = -solve(value)
+        # A correction as small as rounding makes it has nothing to reduce: it ends the iteration.
+        if not _change(step, y[free], scale) <= NEWTON.converged:
+            found = _damped(residual, solve, y, free, scale, step)
+            if found is None:
+                break
+            y, value, simplified = found
+            step = -simplified
+        change = _change(step, y[free], scale)
+        if change <= NEWTON.converged:
+            y[free] += step if change > NEWTON.rounding else 0.0
+            if np.any(np.abs(value) > NEWTON.consistent * reach(local, y, problem.nominal)[rows]):
+                break
+            return at.with_y(y)
+    here = residual(y)
+    if np.all(np.abs(here) <= rounding(problem.local(at.with_y(y), flag), y, problem.nominal)[rows]):
+        return at.with_y(y)
+    raise lost(here)
+
+
+def _change(step: np.ndarray, y: np.ndarray, scale: np.ndarray) -> float:
+    """Largest relative change of an unknown."""
+    return float(np.max(np.abs(step) / (scale + np.abs(y))))
+
+
+def _damped(
+    residual: Solver, solve: Solver, y: np.ndarray, free: np.ndarray, scale: np.ndarray, step: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Values after as much of a step as passes the restricted test, their residuals and the next step but for its sign."""
+    damping = 1.0
+    while damping >= NEWTON.damping:
+        tried = y.copy()
+        tried[free] += damping * step
+        value = residual(tried)
+        if np.all(np.isfinite(value)):
+            simplified = solve(value)
+            # Deuflhard 2004, section 3.3.
+            least = (1 - damping / 4) * np.linalg.norm(step / scale) + NEWTON.floor
+            if np.linalg.norm(simplified / scale) <= least:
+                return tried, value, simplified
+        damping /= 2
+    return None
+
+
+def algebraic(problem: Problem, at: Point) -> Point:
+    """Solve for the algebraic unknowns, with the states as they are."""
+    if found := problem.solved(at, NEWTON.quick):
+        return found
+    try:
+        return newton(problem, _algebraic(problem.compiled), at, 0.0)
+    except Lost:
+        found = _by_parts(problem, at)
+        if found is None:
+            raise
+        return found
+
+
+def _by_parts(problem: Problem, at: Point) -> Point | None:
+    """Solve for them part after part; None where that does not solve the equations.
+
+    At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
+    each of them alone. In one matrix that is d^4, which is less than rounding.
+    """
+    for step in problem.compiled.passes(tuple(range(problem.nz))):
+        for _ in range(1 if step.linear else NEWTON.iterations):
+            z, own = at.z.copy(), step.unknowns
+            z[own] = problem.each(step.function, Rows.of(at))[0]
+            change = np.abs(z - at.z)[own] / (problem.nominal[problem.nx + own] + np.abs(z[own]))
+            at = replace(at, z=z)
+            if not np.max(change) > NEWTON.converged:
+                break
+    own = slice(problem.nx, problem.nx + problem.nz)
+    solved = np.abs(problem.values(at)[own]) <= rounding(problem.local(at), at.y, problem.nominal)[own]
+    return at if np.all(solved) else None
+
+
+@once
+def _algebraic(compiled: CompiledModel) -> InitialSystem:
+    return InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(compiled.nx))
+
+
+def rounding(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+    """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
+    return NEWTON.terms * np.finfo(float).eps * reach(local, y, nominal)
+
+
+def reach(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+    """Return the change in each row by unknowns of their present and nominal sizes together."""
+    return local.magnitudes(np.abs(y) + nominal)
+
+
+def terms(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+    """Return the size of the terms of each row, and at least that of its smallest one at nominal values."""
+    size, J = local.terms(nominal), local.pattern
+    least = np.full(J.shape[0], np.inf)
+    np.minimum.at(least, J.indices, np.where(size != 0, size, np.inf))
+    # Rows of zeros have no smallest term.
+    return local.magnitudes(np.abs(y)) + np.where(least == np.inf, 0.0, least)

@@ -1,0 +1,57 @@
+"""What conditions at the start contradict: other conditions that determine what they say as well, or the equations."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy
+
+from acausal.policy import POLICY
+from acausal.solve.initialization.determined import undetermined
+from acausal.solve.initialization.newton import InitialSystem
+from acausal.solve.initialization.rank import scaled
+from acausal.solve.initialization.words import contradiction_text
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+
+
+def contradiction(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> str:
+    """Say what some conditions, which do not hold at the solution of the initial system, contradict."""
+    # Values that the equations leave open are anything: what is given for them only seems to contradict others.
+    if text := undetermined(problem, at):
+        return f"at t = {at.time:.6g} s {text}"
+    value = problem.values(at, 1.0)[problem.nx :].copy()
+    return contradiction_text(problem.compiled, value, wrong, _opponents(problem, system, at, wrong))
+
+
+def _opponents(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> list[int]:
+    """Return the conditions that hold and that, with the equations, determine the residuals of some others.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    system : InitialSystem
+        What was solved.
+    at : Point
+        Its solution.
+    wrong : list of int
+        Conditions that do not hold there.
+
+    Returns
+    -------
+    list of int
+        Those in whose combinations with the equations the gradients of the others are; none where there are too many
+        equations to tell.
+    """
+    nx, nz = problem.nx, problem.nz
+    if nx + nz > POLICY.causes.largest:
+        return []
+    J = problem.local(at, 1.0).jacobian.toarray()[nx:] * problem.nominal
+    direct = dict(system.direct)
+    conditions = [k for k in (*direct, *system.rows.tolist()) if k >= nz]
+    guesses = np.eye(nx + nz)[np.setdiff1d(system.known, list(direct.values()))]
+    closed = np.pad(problem.gradients(at).toarray(), ((0, 0), (0, nz)))
+    basis = scaled(np.vstack([J[conditions], J[:nz], closed, guesses]))
+    weights = scipy.linalg.lstsq(basis.T, scaled(J[wrong]).T, check_finite=False)[0][: len(conditions)]
+    heavy = np.max(np.abs(weights), axis=1, initial=0.0)
+    return [k for k, weight in zip(conditions, heavy, strict=True) if weight > POLICY.causes.weight]

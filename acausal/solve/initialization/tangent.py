@@ -1,0 +1,103 @@
+"""The directions that the constraints leave free, in terms of as many states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
+from acausal.policy import POLICY
+from acausal.solve.initialization.rank import null_space, pivots
+from acausal.solve.parts import Part, Places, part_of
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+
+# Columns in one call of a sparse solver.
+AT_ONCE = 64
+
+
+def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
+    """Choose independent states, and say how all states follow from small changes of them.
+
+    Returns
+    -------
+    N : array, shape (nx, n)
+        Changes of all states for a unit change of each independent one; all constraints hold along them.
+    chosen : array of int, shape (n,)
+        The independent states, those along which the motion is largest, coordinates with their rates.
+    """
+    if not problem.compiled.constraints.size:
+        return np.eye(problem.nx), np.arange(problem.nx)
+    J, size = problem.gradients(at), problem.reaches
+    null = null_space(J)
+    rate_of = dict(problem.rates)
+    # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
+    weight = np.full(problem.nx, POLICY.ranks.unheld)
+    weight[np.repeat(np.arange(problem.nx), np.diff(J.indptr))[J.data != 0]] = 1.0
+    weight[[k for k in rate_of if weight[k] == 1.0]] = POLICY.ranks.coordinate
+    order = pivots(null * weight)
+    first = [k for k in order[: len(null)] if k not in rate_of.values()]
+    paired = np.array(sorted({*first, *(rate_of[k] for k in first if k in rate_of)}), dtype=int)
+    chosen = np.sort(order[: len(null)])
+    if len(paired) == len(null) and not np.array_equal(paired, chosen):
+        chosen = paired if np.linalg.matrix_rank(null[:, paired]) == len(null) else chosen
+    return size[:, None] * np.linalg.solve(null[:, chosen], null).T / size[chosen], chosen
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """What is left of some rows and columns of a Jacobian once the algebraic unknowns are eliminated.
+
+    Attributes
+    ----------
+    own, through, equations, inner : Part
+        The rows by the columns and by the algebraic unknowns, and the algebraic equations by both.
+    """
+
+    own: Part
+    through: Part
+    equations: Part
+    inner: Part
+
+    @classmethod
+    def of(cls, J: scipy.sparse.csc_matrix, rows: Places, columns: Places, alg: Places, z: Places) -> Elimination:
+        """Return that for all matrices of one sparsity, from one of them; `alg` are equations, `z` algebraic unknowns."""
+        return cls(part_of(J, rows, columns), part_of(J, rows, z), part_of(J, alg, columns), part_of(J, alg, z))
+
+    def matrix(self, entries: np.ndarray) -> np.ndarray:
+        """Return J_rx - J_rz J_az^-1 J_ax, dense, from the entries of the Jacobian."""
+        own = self.own.dense(entries)
+        if not self.inner.rows.size:
+            return own
+        return own - self.through.sparse(entries) @ self._solve(entries)(self.equations.dense(entries))
+
+    def diagonal(self, entries: np.ndarray) -> np.ndarray:
+        """Return the diagonal of the same, some columns at a time."""
+        found = np.zeros(len(self.own.rows))
+        on = self.own.places[0] == self.own.places[1]
+        found[self.own.places[0, on]] = entries[self.own.entries[on]]
+        if not self.inner.rows.size:
+            return found
+        solve, right = self._solve(entries), self.equations.sparse(entries)
+        (row, column), values = self.through.places, entries[self.through.entries]
+        for first in range(0, len(found), AT_ONCE):
+            here = found[first : first + AT_ONCE]
+            dz = solve(right[:, first : first + len(here)].toarray())
+            some = (row >= first) & (row < first + len(here))
+            terms = values[some] * dz[column[some], row[some] - first]
+            here -= np.bincount(row[some] - first, terms, minlength=len(here))
+        return found
+
+    def _solve(self, entries: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+        return scipy.sparse.linalg.splu(self.inner.sparse(entries)).solve
+
+
+@once
+def of_states(compiled: CompiledModel) -> Elimination:
+    """What is left of the derivatives of the states by the states: their matrix A = f_x - f_z g_z^-1 g_x."""
+    x, z = np.split(np.arange(compiled.nx + compiled.nz), [compiled.nx])
+    return Elimination.of(compiled.pattern, x, x, z, z)
