@@ -16,7 +16,7 @@ from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.rank import rank
 from acausal.solve.initialization.start import go_on, start
 from acausal.solve.integrate.order import Spectrum
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars, stacked
 

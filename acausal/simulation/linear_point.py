@@ -14,7 +14,7 @@ from acausal.flatten.tree import walk
 from acausal.language.functions import time
 from acausal.solve.initialization.at_rest import at_rest, meters, rates_allowed
 from acausal.solve.initialization.rotation import Turning, changes, cyclic, turning
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 NAMED = 3  # rates that are named

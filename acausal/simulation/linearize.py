@@ -24,7 +24,7 @@ from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.initialization.kept import least_sharpness
 from acausal.solve.initialization.tangent import Elimination, tangent
 from acausal.solve.opening import opening
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars
 

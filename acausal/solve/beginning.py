@@ -14,7 +14,7 @@ from acausal.solve.initialization.initialize import Start
 from acausal.solve.initialization.start import go_on, start
 from acausal.solve.integrate.order import Spectrum
 from acausal.solve.opening import Opening
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 

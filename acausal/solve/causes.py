@@ -13,7 +13,7 @@ from acausal.compiler.whole import EQUATION, Row
 from acausal.policy import POLICY
 from acausal.solve.dependent import dependent
 from acausal.solve.guesses import ELSEWHERE, mend_of
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.there import There, of_zeros, zeros_in
 from acausal.symbols import scalars

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.policy import POLICY
 from acausal.solve.guesses import another_guess
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.there import There, of_zeros, zeros_in
 

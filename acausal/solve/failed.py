@@ -15,7 +15,7 @@ from acausal.solve.initialization.redundancy import Redundancy, is_singular
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.segment import approached
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 MOST = 3  # states that are named

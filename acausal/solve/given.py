@@ -16,7 +16,7 @@ from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.known import Known
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars
 

@@ -12,7 +12,7 @@ from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.initialization.rotation import is_steady
 from acausal.solve.initialization.start import places_text, start
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 SPAN = 1.0  # s: conditions by the clock that change later do not matter at the start

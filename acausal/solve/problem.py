@@ -16,7 +16,7 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
 from acausal.core import Settler, library
 from acausal.policy import POLICY
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.reach import reaches
 
 

@@ -36,7 +36,7 @@ from acausal.solve.integrate.methods import METHODS, chosen, why_first
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 PLAIN = 10  # numbers of each output beside its values

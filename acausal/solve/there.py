@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal.compiler.whole import Row, Whole, whole
 from acausal.policy import POLICY
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.compiler.whole import EVENT, whole
 from acausal.solve.causes import without_value
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 MEND = "Nothing tells whether it holds. Compare what always has a value, such as x > 1 in place of sqrt(x) > 1."

@@ -40,7 +40,7 @@ MAY = {
 }
 ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effects": {"measuring", "effects"}}
 SOLVE = (
-    "points",
+    "point",
     "parts",
     "reach",
     "problem",

@@ -10,7 +10,7 @@ import acausal as ac
 from acausal import Model, Scalar, der, output, time, variable
 from acausal.cli import app
 from acausal.solve.causes import without_value
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from models import SimplePendulum, SliderCrank
 

@@ -15,7 +15,7 @@ from acausal.compiler.constants import Constants
 from acausal.core import library
 from acausal.solve.initialization.kept import Held, kept_again
 from acausal.solve.initialization.start import start
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from components import Revolute
 from components.rotational import Torque

@@ -9,7 +9,7 @@ from acausal.policy import POLICY
 from acausal.solve.checks.meeting import Meeting, first_meeting
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.looks import spread
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 
 def first_refusal(integrator: Integrator, first: Point) -> Meeting | None:

@@ -17,7 +17,7 @@ from acausal.solve.checks.validity import separations
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Refusal
 from acausal.solve.looks import pace
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
 MEETING = POLICY.meeting

@@ -7,7 +7,7 @@ import numpy as np
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.looks import spread
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 
 
 def opened(consistent: Consistent, rows: Rows) -> list[str]:

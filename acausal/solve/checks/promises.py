@@ -20,7 +20,7 @@ from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 from acausal.symbols import scalars, stacked
 
 PROMISES = POLICY.promises

@@ -19,7 +19,7 @@ from acausal.language.validity import Expectation, Separation
 from acausal.policy import POLICY
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.symbols import stacked
 

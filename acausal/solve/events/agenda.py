@@ -10,7 +10,7 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.guards import Guards
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 
 def part_of_time(part: float, begin: float, end: float) -> float:

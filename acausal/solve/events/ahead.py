@@ -19,7 +19,7 @@ from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 LOOKS = POLICY.looks
 

@@ -28,7 +28,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.undecided import undecided
 
 INSTANTS = POLICY.instants

@@ -9,7 +9,7 @@ import numpy as np
 from acausal.policy import POLICY
 from acausal.solve.initialization.loop_states import sparing
 from acausal.solve.initialization.loops import close
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 INSTANTS = POLICY.instants

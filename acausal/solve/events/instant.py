@@ -15,7 +15,7 @@ from acausal.solve.initialization.assignments import MOST, Assignments
 from acausal.solve.initialization.loops import refuse_open_loops
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.ladder import Failure
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
 INSTANTS = POLICY.instants

@@ -13,7 +13,7 @@ from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.events.shares import shares
 from acausal.solve.initialization.newton import algebraic
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 LAWS = POLICY.laws

@@ -16,7 +16,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import pace
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.undecided import undecided
 
 LOCATE = POLICY.locate

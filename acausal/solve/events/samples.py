@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.solve.events.crossing import Sides
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 
 @dataclass(frozen=True, eq=False)

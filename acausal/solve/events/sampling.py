@@ -26,7 +26,7 @@ from acausal.solve.integrate.one_step import at_once, error_test
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.looks import spread
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 SAMPLING = POLICY.sampling
 

@@ -15,7 +15,7 @@ from acausal.compiler.rounding import terms
 from acausal.policy import POLICY
 from acausal.solve.initialization.rank import factored
 from acausal.solve.initialization.words import equation_text
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars, stacked
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal.errors import InitializationError
 from acausal.solve.initialization.newton import InitialSystem, newton
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.structure.blt import block_triangular
 from acausal.structure.matching import maximum_matching

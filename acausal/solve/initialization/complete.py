@@ -20,7 +20,7 @@ from acausal.solve.initialization.rank import factored, is_regular, null_space, 
 from acausal.solve.initialization.redundancy import Redundancy, find_redundancy
 from acausal.solve.initialization.shares import shared
 from acausal.solve.initialization.words import missing_text
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 LOOPS = POLICY.loops

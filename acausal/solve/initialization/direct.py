@@ -9,7 +9,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.local import Local
 from acausal.compiler.once import once
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 

@@ -24,7 +24,7 @@ from acausal.solve.initialization.redundancy import Redundancy
 from acausal.solve.initialization.rotation import turning_states
 from acausal.solve.initialization.steady import rest, rotation
 from acausal.solve.initialization.words import missing_text
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.structure import complete
 

@@ -19,7 +19,7 @@ from acausal.policy import POLICY
 from acausal.solve.initialization.rank import pivots
 from acausal.solve.initialization.regular import gram, least_singular_value
 from acausal.solve.parts import Part
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.reach import levels_of
 

@@ -15,7 +15,7 @@ from acausal.solve.initialization.loop_states import choose_projection, fits
 from acausal.solve.initialization.loops import close, polished, tighten
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.initialization.rank import factored
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 

@@ -11,7 +11,7 @@ from acausal.language.functions import time
 from acausal.policy import POLICY
 from acausal.solve.initialization.directions import differing
 from acausal.solve.initialization.redundancy import lowest
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 RANKS = POLICY.ranks

@@ -17,7 +17,7 @@ from acausal.solve.initialization.descent import Matrix, Residuals, descend
 from acausal.solve.initialization.directions import differing
 from acausal.solve.initialization.rank import least_norm
 from acausal.solve.parts import part_of
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 LOOPS = POLICY.loops

@@ -17,7 +17,7 @@ from acausal.policy import POLICY
 from acausal.solve.initialization.rank import factored
 from acausal.solve.initialization.words import lost_text, worst_lines
 from acausal.solve.parts import Part, part_of
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
 NEWTON = POLICY.newton

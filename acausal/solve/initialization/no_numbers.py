@@ -14,7 +14,7 @@ from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.policy import POLICY
 from acausal.solve.causes import operation, remedy
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.there import There
 from acausal.symbols import scalars

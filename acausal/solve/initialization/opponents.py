@@ -10,7 +10,7 @@ from acausal.solve.initialization.determined import undetermined
 from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import scaled
 from acausal.solve.initialization.words import contradiction_text
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 

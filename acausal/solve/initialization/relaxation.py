@@ -10,7 +10,7 @@ import scipy
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.initialization.linearized import Linearized, Linearizer, moved
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 REST = POLICY.rest
 

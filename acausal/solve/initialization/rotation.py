@@ -25,7 +25,7 @@ from acausal.solve.initialization.at_rest import (
 )
 from acausal.solve.initialization.linearized import Linearizer, moved
 from acausal.solve.initialization.newton import algebraic
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 REST, RANKS = POLICY.rest, POLICY.ranks

@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.solve.initialization.rank import scaled
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 

@@ -22,7 +22,7 @@ from acausal.solve.initialization.loop_states import choose_projection
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.initialization.no_numbers import no_numbers
 from acausal.solve.initialization.steady import Restless
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.undecided import undecided
 

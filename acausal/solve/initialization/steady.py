@@ -23,7 +23,7 @@ from acausal.solve.initialization.relaxation import relax
 from acausal.solve.initialization.rotation import changes, cyclic, turning
 from acausal.solve.initialization.tangent import tangent
 from acausal.solve.initialization.words import unstable_text
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 REST = POLICY.rest

@@ -13,7 +13,7 @@ from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.initialization.rank import null_space, pivots
 from acausal.solve.parts import Part, Places, part_of
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 # Columns in one call of a sparse solver.

@@ -27,7 +27,7 @@ from acausal.solve.integrate.stateless import everywhere
 from acausal.solve.integrate.trace import Leg, Trace
 from acausal.solve.integrate.unfit import Reach, unfit_time
 from acausal.solve.looks import spread
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
 

@@ -20,7 +20,7 @@ from acausal.policy import POLICY
 from acausal.solve.initialization.newton import algebraic, terms
 from acausal.solve.looks import spread
 from acausal.solve.parts import part_of
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 from acausal.solve.problem import Problem
 
 CONSISTENT = POLICY.consistent

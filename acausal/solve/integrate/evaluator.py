@@ -12,7 +12,7 @@ from acausal.language.functions import time as time_symbol
 from acausal.solve.causes import without_value
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.known import Known
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 
 MEND = "Say what holds there: piecewise((value, condition), ..., otherwise)."
 

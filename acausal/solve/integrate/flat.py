@@ -9,7 +9,7 @@ from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.initialization.kept import Held
 from acausal.solve.looks import spread
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 from acausal.solve.problem import Problem
 
 LOOPS = POLICY.loops

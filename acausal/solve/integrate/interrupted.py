@@ -9,7 +9,7 @@ import numpy as np
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.integration import Integration
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 
 def reached(consistent: Consistent, integration: Integration) -> Leg | None:

@@ -17,7 +17,7 @@ from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import fit_rows
 from acausal.solve.looks import uneven
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 LOOKS = POLICY.looks
 

@@ -16,7 +16,7 @@ import scipy
 
 from acausal.policy import POLICY
 from acausal.solve.initialization.tangent import of_states, tangent
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 ORDER = POLICY.order

@@ -11,7 +11,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, accepted, next_ways
 from acausal.solve.integrate.order_trial import settle
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 RESCUE = POLICY.rescue
 

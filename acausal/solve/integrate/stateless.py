@@ -14,7 +14,7 @@ from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import between_rows
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from acausal.compiler.core_equations import core_equations
 from acausal.core import StoredModel
 from acausal.solve.integrate.one_step import are_rates
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 
 class Piece(NamedTuple):

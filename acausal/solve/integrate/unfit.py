@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal.policy import POLICY
 from acausal.solve.initialization.kept import Held
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 LOOPS = POLICY.loops

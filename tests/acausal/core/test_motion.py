@@ -9,7 +9,7 @@ import acausal as ac
 from acausal.compiler.core_equations import core_motion
 from acausal.solve.initialization.start import start
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 from acausal.solve.problem import Problem
 from tests.benchmarks.events.engine import EngineV6
 from tests.benchmarks.events.scenes import Ball, Drive, SampledPendulum, StickSlip

@@ -11,7 +11,7 @@ from acausal.compiler.constants import Layout
 from acausal.solve.events.locate import Locator, TooCoarse
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import uneven
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 NOTHING = Layout(0, 0, 0, 0, 0, 0).begin(np.zeros(0), 1.0)
 WIDTH = 1e-9

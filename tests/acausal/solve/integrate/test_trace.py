@@ -7,7 +7,7 @@ import pytest
 
 from acausal.compiler.constants import Constants, Layout
 from acausal.solve.integrate.trace import Leg, Trace
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 
 def constants(*switches: float) -> Constants:
