@@ -9,7 +9,7 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.constraints import Constraints
 from acausal.compiler.once import latest, once
 from acausal.policy import POLICY
-from acausal.solve.parts import Part, parts
+from acausal.solve.sparse_blocks import Part, parts
 from acausal.units import BASES, Dimension, parse
 
 LOOPS, RANKS = POLICY.loops, POLICY.ranks

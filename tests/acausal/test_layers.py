@@ -41,7 +41,7 @@ MAY = {
 ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effects": {"measuring", "effects"}}
 SOLVE = (
     "point",
-    "parts",
+    "sparse_blocks",
     "reach",
     "problem",
     "scaling",

@@ -18,10 +18,10 @@ from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.initialization.rank import pivots
 from acausal.solve.initialization.regular import gram, least_singular_value
-from acausal.solve.parts import Part
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.reach import levels_of
+from acausal.solve.sparse_blocks import Part
 
 RANKS = POLICY.ranks
 

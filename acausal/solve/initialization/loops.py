@@ -16,9 +16,9 @@ from acausal.solve.initialization.conditions import giving, soft
 from acausal.solve.initialization.descent import Matrix, Residuals, descend
 from acausal.solve.initialization.directions import differing
 from acausal.solve.initialization.rank import least_norm
-from acausal.solve.parts import part_of
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
+from acausal.solve.sparse_blocks import part_of
 
 LOOPS = POLICY.loops
 

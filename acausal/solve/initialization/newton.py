@@ -16,9 +16,9 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.initialization.rank import factored
 from acausal.solve.initialization.words import lost_text, worst_lines
-from acausal.solve.parts import Part, part_of
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.sparse_blocks import Part, part_of
 
 NEWTON = POLICY.newton
 Solver = Callable[[np.ndarray], np.ndarray]

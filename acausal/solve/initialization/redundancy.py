@@ -16,9 +16,9 @@ from acausal.policy import POLICY
 from acausal.solve.initialization.kept import droppable
 from acausal.solve.initialization.loops import close
 from acausal.solve.initialization.rank import is_regular, null_space, pivots, rank, scaled
-from acausal.solve.parts import Part, part_of, parts, parts_of
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
+from acausal.solve.sparse_blocks import Part, part_of, parts, parts_of
 
 RANKS = POLICY.ranks
 

@@ -12,9 +12,9 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.initialization.rank import null_space, pivots
-from acausal.solve.parts import Part, Places, part_of
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
+from acausal.solve.sparse_blocks import Part, Places, part_of
 
 # Columns in one call of a sparse solver.
 AT_ONCE = 64

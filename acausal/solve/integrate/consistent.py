@@ -19,9 +19,9 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.initialization.newton import algebraic, terms
 from acausal.solve.looks import spread
-from acausal.solve.parts import part_of
 from acausal.solve.point import Rows
 from acausal.solve.problem import Problem
+from acausal.solve.sparse_blocks import part_of
 
 CONSISTENT = POLICY.consistent
 CANCELS = 16 * np.finfo(float).eps

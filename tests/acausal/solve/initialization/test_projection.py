@@ -20,8 +20,8 @@ from acausal.solve.initialization.loops import close, levels, tighten
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.tangent import tangent
 from acausal.solve.integrate.order import eigenvalues_of
-from acausal.solve.parts import Part, parts
 from acausal.solve.point import Rows
+from acausal.solve.sparse_blocks import Part, parts
 from tests.acausal.solve.circle import compiled, plane, point, problem
 
 FREE = np.empty(0, int)

@@ -10,7 +10,7 @@ from acausal.solve.initialization import loop_states
 from acausal.solve.initialization.loop_states import _oblique, _select, _transversality
 from acausal.solve.initialization.rank import columns_by_pivots, is_regular, least_norm, null_space, outside, rank
 from acausal.solve.initialization.regular import complement, gram, least_singular_value, unit_rows
-from acausal.solve.parts import parts_of
+from acausal.solve.sparse_blocks import parts_of
 
 M, N = 150, 190
 

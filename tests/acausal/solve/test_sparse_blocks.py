@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from acausal.solve.parts import part_of, parts, parts_of
+from acausal.solve.sparse_blocks import part_of, parts, parts_of
 
 
 def test_blocks_that_were_mixed_are_found():
