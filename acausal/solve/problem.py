@@ -16,8 +16,8 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
 from acausal.core import Settler, library
 from acausal.policy import POLICY
+from acausal.solve.coordinate_scaling import reaches
 from acausal.solve.point import Point, Rows
-from acausal.solve.reach import reaches
 
 
 @dataclass(frozen=True, eq=False)

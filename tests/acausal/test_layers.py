@@ -42,7 +42,7 @@ ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effec
 SOLVE = (
     "point",
     "sparse_blocks",
-    "reach",
+    "coordinate_scaling",
     "problem",
     "scaling",
     "hermite",

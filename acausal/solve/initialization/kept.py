@@ -16,11 +16,11 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.compiler.once import once
 from acausal.policy import POLICY
+from acausal.solve.coordinate_scaling import levels_of
 from acausal.solve.initialization.rank import pivots
 from acausal.solve.initialization.regular import gram, least_singular_value
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.reach import levels_of
 from acausal.solve.sparse_blocks import Part
 
 RANKS = POLICY.ranks

@@ -7,8 +7,8 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, chain, fixed, guess, parameter
+from acausal.solve.coordinate_scaling import reaches
 from acausal.solve.problem import Problem
-from acausal.solve.reach import reaches
 from components import BodyBox, Fixed, FixedTranslation, PointMass, Prismatic, Revolute, SphericalSpherical, World
 from models import FourBar, SimplePendulum, Squeezer
 from tests.hard.test_units_of_length import LENGTHS, SliderCrank, Yoke
