@@ -12,7 +12,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.whole import EQUATION, Row
 from acausal.policy import POLICY
 from acausal.solve.dependent import dependent
-from acausal.solve.guesses import ELSEWHERE, mend_of
+from acausal.solve.diagnosis.start_values import ELSEWHERE, mend_of
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.there import There, of_zeros, zeros_in

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.guesses import another_guess
+from acausal.solve.diagnosis.start_values import another_guess
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.there import There, of_zeros, zeros_in

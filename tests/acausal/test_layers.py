@@ -47,7 +47,7 @@ SOLVE = (
     "scaling",
     "hermite",
     "looks",
-    "guesses",
+    "diagnosis",
     "there",
     "dependent",
     "causes",
