@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.probe import There, of_zeros, zeros_in
 from acausal.solve.diagnosis.start_values import another_guess
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.there import There, of_zeros, zeros_in
 
 CAUSES = POLICY.causes
 ANOTHER = "Replace one of them by an equation that says something new."

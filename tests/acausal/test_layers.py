@@ -48,7 +48,6 @@ SOLVE = (
     "hermite",
     "looks",
     "diagnosis",
-    "there",
     "dependent",
     "causes",
     "undecided",

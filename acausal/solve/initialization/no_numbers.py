@@ -14,9 +14,9 @@ from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.policy import POLICY
 from acausal.solve.causes import operation, remedy
+from acausal.solve.diagnosis.probe import There
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.there import There
 from acausal.symbols import scalars
 
 START_VALUE = "start value"
