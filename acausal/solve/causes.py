@@ -11,8 +11,8 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.compiler.whole import EQUATION, Row
 from acausal.policy import POLICY
-from acausal.solve.dependent import dependent
 from acausal.solve.diagnosis.probe import There, of_zeros, zeros_in
+from acausal.solve.diagnosis.singularity import dependent
 from acausal.solve.diagnosis.start_values import ELSEWHERE, mend_of
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem

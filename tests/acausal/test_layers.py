@@ -48,7 +48,6 @@ SOLVE = (
     "hermite",
     "looks",
     "diagnosis",
-    "dependent",
     "causes",
     "undecided",
     "initialization",

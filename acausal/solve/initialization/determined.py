@@ -16,8 +16,8 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
 from acausal.compiler.once import once
 from acausal.policy import POLICY
-from acausal.solve.dependent import said_twice
 from acausal.solve.diagnosis.probe import ROUNDING, beside, is_rounding
+from acausal.solve.diagnosis.singularity import said_twice
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.scaling import scaled_to_pivots
