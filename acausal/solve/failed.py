@@ -8,8 +8,8 @@ import numpy as np
 
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
-from acausal.solve.causes import cause, infinite_slope, without_value
 from acausal.solve.checks.meeting import meeting_ahead
+from acausal.solve.diagnosis.not_finite import cause, infinite_slope, without_value
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.initialization.redundancy import Redundancy, is_singular
 from acausal.solve.integrate.attempt import Integrator

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from acausal.compiler.whole import EVENT, whole
-from acausal.solve.causes import without_value
+from acausal.solve.diagnosis.not_finite import without_value
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

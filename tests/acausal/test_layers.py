@@ -48,7 +48,6 @@ SOLVE = (
     "hermite",
     "looks",
     "diagnosis",
-    "causes",
     "undecided",
     "initialization",
     "integrate",

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 import acausal as ac
 from acausal import Model, Scalar, der, output, time, variable
 from acausal.cli import app
-from acausal.solve.causes import without_value
+from acausal.solve.diagnosis.not_finite import without_value
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from models import SimplePendulum, SliderCrank

@@ -12,7 +12,7 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.causes import cause
+from acausal.solve.diagnosis.not_finite import cause
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.between import work_between

@@ -13,7 +13,7 @@ from acausal.flatten.origin import Origin, value_origin
 from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.policy import POLICY
-from acausal.solve.causes import operation, remedy
+from acausal.solve.diagnosis.not_finite import operation, remedy
 from acausal.solve.diagnosis.probe import There
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem

@@ -13,7 +13,7 @@ from acausal.compiler.set_valued import MODE, SHARED
 from acausal.compiler.whole import EQUATION, START
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
-from acausal.solve.causes import cause, without_value
+from acausal.solve.diagnosis.not_finite import cause, without_value
 from acausal.solve.initialization.assignments import MOST, Assignments
 from acausal.solve.initialization.complete import leave_singular
 from acausal.solve.initialization.determined import undetermined

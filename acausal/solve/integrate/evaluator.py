@@ -9,7 +9,7 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.errors import caution
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol
-from acausal.solve.causes import without_value
+from acausal.solve.diagnosis.not_finite import without_value
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.known import Known
 from acausal.solve.point import Rows
