@@ -48,7 +48,6 @@ SOLVE = (
     "hermite",
     "looks",
     "diagnosis",
-    "undecided",
     "initialization",
     "integrate",
     "events",

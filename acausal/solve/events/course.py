@@ -13,6 +13,7 @@ from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.not_finite import cause
+from acausal.solve.diagnosis.undefined_conditions import undecided
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.between import work_between
@@ -29,7 +30,6 @@ from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
-from acausal.solve.undecided import undecided
 
 INSTANTS = POLICY.instants
 

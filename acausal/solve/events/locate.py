@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.undefined_conditions import undecided
 from acausal.solve.events.between import between
 from acausal.solve.events.crossing import Sides, dips, levels, root, turns
 from acausal.solve.events.instant import Instants
@@ -17,7 +18,6 @@ from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import pace
 from acausal.solve.point import Point, Rows
-from acausal.solve.undecided import undecided
 
 LOCATE = POLICY.locate
 LOOKS = POLICY.looks

@@ -14,6 +14,7 @@ from acausal.compiler.whole import EQUATION, START
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.not_finite import cause, without_value
+from acausal.solve.diagnosis.undefined_conditions import undecided
 from acausal.solve.initialization.assignments import MOST, Assignments
 from acausal.solve.initialization.complete import leave_singular
 from acausal.solve.initialization.determined import undetermined
@@ -24,7 +25,6 @@ from acausal.solve.initialization.no_numbers import no_numbers
 from acausal.solve.initialization.steady import Restless
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.undecided import undecided
 
 STAGES = (EQUATION, START)
 NOT_FINITE = "the equations have no value at the start; check the start values."
