@@ -13,8 +13,8 @@ from acausal.compiler.call import Call
 from acausal.compiler.once import latest, once
 from acausal.compiler.rounding import terms
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.initialization import equation_text
 from acausal.solve.initialization.rank import factored
-from acausal.solve.initialization.words import equation_text
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars, stacked

@@ -11,6 +11,7 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.conditions import soft
 from acausal.solve.initialization.kept import refitted
 from acausal.solve.initialization.loop_states import choose_projection
@@ -19,7 +20,6 @@ from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.initialization.redundancy import Redundancy, find_redundancy
 from acausal.solve.initialization.shares import shared
-from acausal.solve.initialization.words import missing_text
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

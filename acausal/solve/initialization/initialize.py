@@ -13,6 +13,7 @@ from acausal.compiler.once import latest
 from acausal.compiler.report import AtStart
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.blocks import by_blocks
 from acausal.solve.initialization.complete import closed_guess, ranked
 from acausal.solve.initialization.conditions import flag_matters, giving, lasting
@@ -23,7 +24,6 @@ from acausal.solve.initialization.opponents import contradiction
 from acausal.solve.initialization.redundancy import Redundancy
 from acausal.solve.initialization.rotation import turning_states
 from acausal.solve.initialization.steady import rest, rotation
-from acausal.solve.initialization.words import missing_text
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.structure import complete

@@ -14,8 +14,8 @@ from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.initialization import lost_text, worst_lines
 from acausal.solve.initialization.rank import factored
-from acausal.solve.initialization.words import lost_text, worst_lines
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.sparse_blocks import Part, part_of

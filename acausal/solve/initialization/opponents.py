@@ -6,10 +6,10 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.initialization import contradiction_text
 from acausal.solve.initialization.determined import undetermined
 from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import scaled
-from acausal.solve.initialization.words import contradiction_text
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.initialization import unstable_text
 from acausal.solve.initialization.at_rest import at_rest, motion_text
 from acausal.solve.initialization.kept import least_sharpness
 from acausal.solve.initialization.least_change import least_change
@@ -22,7 +23,6 @@ from acausal.solve.initialization.linearized import Linearized, Linearizer, move
 from acausal.solve.initialization.relaxation import relax
 from acausal.solve.initialization.rotation import changes, cyclic, turning
 from acausal.solve.initialization.tangent import tangent
-from acausal.solve.initialization.words import unstable_text
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
