@@ -9,7 +9,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.language.functions import time
 from acausal.policy import POLICY
-from acausal.solve.initialization.directions import differing
+from acausal.solve.diagnosis.loop_directions import differing
 from acausal.solve.initialization.redundancy import lowest
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
