@@ -22,11 +22,11 @@ from acausal.solve.checks.departed import first_refusal, refuse_departure
 from acausal.solve.checks.opened import opened
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import doubts
+from acausal.solve.diagnosis.failure import failure_text
 from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
-from acausal.solve.failed import failure_text
 from acausal.solve.initialization.initialize import Start
 from acausal.solve.initialization.locked import locked
 from acausal.solve.integrate.attempt import Integrator

@@ -52,7 +52,7 @@ SOLVE = (
     "integrate",
     "events",
     "checks",
-    "failed",
+    "diagnosis.failure",
     "opening",
     "beginning",
     "given",
