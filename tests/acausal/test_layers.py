@@ -44,7 +44,6 @@ SOLVE = (
     "sparse_blocks",
     "coordinate_scaling",
     "problem",
-    "scaling",
     "hermite",
     "looks",
     "diagnosis",

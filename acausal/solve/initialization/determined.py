@@ -16,11 +16,11 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
 from acausal.compiler.once import once
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.pivot_scaling import scaled_to_pivots
 from acausal.solve.diagnosis.probe import ROUNDING, beside, is_rounding
 from acausal.solve.diagnosis.singularity import said_twice
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.scaling import scaled_to_pivots
 from acausal.solve.sparse_blocks import Part, part_of
 
 
