@@ -1,16 +1,27 @@
-"""Which equations depend on each other at a point, and what they leave open."""
+"""Singular equations: which depend on each other at a point, and which unknowns they leave undetermined.
+
+Newton steps of least norm converge for dependent equations too, whose Jacobian round-off makes regular. The pivots of a
+scaled sparse LU factorization reveal it whatever the units and stiffness: in the scenes, also with beams a million times as
+stiff, no pivot is below 1e-5 of its terms.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
+from acausal.compiler import CompiledModel
+from acausal.compiler.core_equations import core_square
+from acausal.compiler.once import once
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.probe import There, of_zeros, zeros_in
+from acausal.solve.diagnosis.pivot_scaling import scaled_to_pivots
+from acausal.solve.diagnosis.probe import ROUNDING, There, beside, is_rounding, of_zeros, zeros_in
 from acausal.solve.diagnosis.start_values import another_guess
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
+from acausal.solve.sparse_blocks import Part, part_of
 
 CAUSES = POLICY.causes
 ANOTHER = "Replace one of them by an equation that says something new."
@@ -117,3 +128,49 @@ def _heavy(vectors: np.ndarray) -> list[int]:
     weight = np.linalg.norm(vectors, axis=0)
     weight = np.round(weight / np.max(weight), CAUSES.digits)
     return [int(k) for k in np.argsort(-weight, kind="stable") if weight[k] > CAUSES.weight]
+
+
+def undetermined(problem: Problem, at: Point) -> str:
+    """Say which equations say the same at a point and beside it, and what they leave open; "" if none do."""
+    sure = _sure(problem, at) or _pivots_hold(_without_rounding(problem, at))
+    return "" if sure else said_twice(problem, at)
+
+
+def _sure(problem: Problem, at: Point) -> bool:
+    """Whether the core has factors whose pivots are far from rounding, which is known in a tenth of the time."""
+    least = problem.least_pivot(at)
+    if least <= POLICY.ranks.rank:
+        return False
+    square = core_square(problem.compiled, tuple(range(problem.nz)))
+    p = np.array([problem.p, beside(problem.p)])
+    values = square.tape.rows(p, at.constants.vector, at.x, at.z, np.array([at.time]))
+    return not np.any(is_rounding(*values[:, problem.nz :]))
+
+
+def _without_rounding(problem: Problem, at: Point) -> scipy.sparse.csc_matrix:
+    """Jacobian of the algebraic equations; entries that are rounding are 0."""
+    inner, changed = _inner(problem.compiled), replace(problem, p=beside(problem.p))
+    J, other = (inner.sparse(own.local(at).entries) for own in (problem, changed))
+    J.data[is_rounding(J.data, other.data)] = 0.0
+    return J
+
+
+def _pivots_hold(J: scipy.sparse.csc_matrix) -> bool:
+    """Whether no pivot is the rounding of its terms; equations without a value are not looked at."""
+    if not (J.shape[0] and np.all(np.isfinite(J.data))):
+        return True
+    scaled = scaled_to_pivots(J)
+    if scaled is None:
+        return False
+    try:
+        factors = scipy.sparse.linalg.splu(scaled, permc_spec="NATURAL")
+    except RuntimeError:
+        return False
+    terms = np.asarray(abs(factors.L).multiply(abs(factors.U).T).sum(axis=1)).ravel()
+    return bool(np.all(np.abs(factors.U.diagonal()) > ROUNDING * terms))
+
+
+@once
+def _inner(compiled: CompiledModel) -> Part:
+    unknowns = np.arange(compiled.nx, compiled.nx + compiled.nz)
+    return part_of(compiled.pattern, unknowns, unknowns)

@@ -13,6 +13,7 @@ from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.not_finite import cause
+from acausal.solve.diagnosis.singularity import undetermined
 from acausal.solve.diagnosis.undefined_conditions import undecided
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.ahead import Ahead
@@ -23,7 +24,6 @@ from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.rests import ends_of_rests
 from acausal.solve.events.sampling import Sampling
-from acausal.solve.initialization.determined import undetermined
 from acausal.solve.initialization.newton import Lost
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure

@@ -7,7 +7,7 @@ import scipy
 
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.initialization import contradiction_text
-from acausal.solve.initialization.determined import undetermined
+from acausal.solve.diagnosis.singularity import undetermined
 from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import scaled
 from acausal.solve.point import Point

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.initialization.determined import undetermined
+from acausal.solve.diagnosis.singularity import undetermined
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import between_rows
