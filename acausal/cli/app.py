@@ -197,7 +197,7 @@ def linearize(
 
 def _at_start(compiled: CompiledModel) -> AtStart | None:
     """What the ranks of loops show; they need consistent positions."""
-    from acausal.solve.initialization.start import start
+    from acausal.solve.initialization.initial_modes import start
     from acausal.solve.problem import Problem
 
     if not compiled.constraints.size:

@@ -11,10 +11,10 @@ from acausal.compiler import CompiledModel
 from acausal.errors import ExportError
 from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
+from acausal.solve.initialization.initial_modes import go_on, start
 from acausal.solve.initialization.initialize import initial_system
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.rank import rank
-from acausal.solve.initialization.start import go_on, start
 from acausal.solve.integrate.order import Spectrum
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem

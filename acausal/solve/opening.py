@@ -10,8 +10,8 @@ from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.instant import Cycling, Instants
+from acausal.solve.initialization.initial_modes import places_text, start
 from acausal.solve.initialization.rotation import is_steady
-from acausal.solve.initialization.start import places_text, start
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

@@ -11,7 +11,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
 from acausal.solve.events.stride import Stride
-from acausal.solve.initialization.start import places_text
+from acausal.solve.initialization.initial_modes import places_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
 from acausal.solve.integrate.march import March

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from acausal.compiler import CompiledModel
-from acausal.solve.initialization.start import places_text
+from acausal.solve.initialization.initial_modes import places_text
 
 
 class Chattering(Exception):

@@ -7,7 +7,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import caution
 from acausal.policy import POLICY
-from acausal.solve.initialization.start import places_text
+from acausal.solve.initialization.initial_modes import places_text
 
 INSTANTS = POLICY.instants
 

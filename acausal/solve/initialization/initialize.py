@@ -13,6 +13,7 @@ from acausal.compiler.once import latest
 from acausal.compiler.report import AtStart
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.conflicts import contradiction
 from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.blocks import by_blocks
 from acausal.solve.initialization.complete import closed_guess, ranked
@@ -20,7 +21,6 @@ from acausal.solve.initialization.conditions import flag_matters, giving, lastin
 from acausal.solve.initialization.direct import with_direct
 from acausal.solve.initialization.loop_states import choose_projection, independent
 from acausal.solve.initialization.newton import InitialSystem, algebraic, follow, newton, reach
-from acausal.solve.initialization.opponents import contradiction
 from acausal.solve.initialization.redundancy import Redundancy
 from acausal.solve.initialization.rotation import turning_states
 from acausal.solve.initialization.steady import rest, rotation

@@ -7,7 +7,7 @@ import pytest
 
 import acausal as ac
 from acausal.compiler.core_equations import core_motion
-from acausal.solve.initialization.start import start
+from acausal.solve.initialization.initial_modes import start
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.point import Rows
 from acausal.solve.problem import Problem

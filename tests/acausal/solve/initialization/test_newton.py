@@ -12,8 +12,8 @@ import models
 from acausal import Model, Scalar, der, fixed, variable
 from acausal.core import library
 from acausal.policy import POLICY
+from acausal.solve.initialization.initial_modes import start
 from acausal.solve.initialization.newton import InitialSystem, _algebraic, algebraic, follow, newton
-from acausal.solve.initialization.start import start
 from acausal.solve.problem import Problem
 from tests.acausal.solve.made import Made, linear
 
