@@ -16,7 +16,7 @@ from acausal.policy import POLICY
 from acausal.solve.diagnosis.conflicts import contradiction
 from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.blocks import by_blocks
-from acausal.solve.initialization.complete import closed_guess, ranked
+from acausal.solve.initialization.complete_by_rank import closed_guess, ranked
 from acausal.solve.initialization.conditions import flag_matters, giving, lasting
 from acausal.solve.initialization.direct import with_direct
 from acausal.solve.initialization.loop_states import choose_projection, independent

@@ -9,13 +9,13 @@ import pytest
 
 import acausal as ac
 from acausal.core import library
-from acausal.solve.initialization import complete
+from acausal.solve.initialization import complete_by_rank
 from acausal.solve.initialization.redundancy import Redundancy
 from models import Bricard, FourBar
 
 
 def test_a_loop_that_opens_is_named(monkeypatch):
-    monkeypatch.setattr(complete, "find_redundancy", lambda problem, at: Redundancy((0,)))
+    monkeypatch.setattr(complete_by_rank, "find_redundancy", lambda problem, at: Redundancy((0,)))
     with pytest.warns(ac.AcausalWarning, match=r"j4\.frame_a close .*four_bar\.py.* is open by"):
         result = ac.simulate(FourBar(), stop_time=0.5, tolerance=1e-4, intervals=50)
     apart = np.abs(result["b2.frame_b.r_0"][-1] - result["j4.frame_a.r_0"][-1]).max()
@@ -24,7 +24,7 @@ def test_a_loop_that_opens_is_named(monkeypatch):
 
 def test_a_loop_that_closes_again_is_named(monkeypatch):
     """With what it was open by at most, not at the end of the run."""
-    monkeypatch.setattr(complete, "find_redundancy", lambda problem, at: Redundancy((0,)))
+    monkeypatch.setattr(complete_by_rank, "find_redundancy", lambda problem, at: Redundancy((0,)))
     with pytest.warns(ac.AcausalWarning, match="is open by") as told:
         result = ac.simulate(FourBar(), stop_time=0.7, tolerance=1e-4, intervals=50)
     apart = np.abs(result["b2.frame_b.r_0"] - result["j4.frame_a.r_0"]).max(axis=1)
