@@ -15,7 +15,7 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.conflicts import contradiction
 from acausal.solve.diagnosis.initialization import missing_text
-from acausal.solve.initialization.blocks import by_blocks
+from acausal.solve.initialization.block_solve import by_blocks
 from acausal.solve.initialization.complete_by_rank import closed_guess, ranked
 from acausal.solve.initialization.conditions import flag_matters, giving, lasting
 from acausal.solve.initialization.direct import with_direct
