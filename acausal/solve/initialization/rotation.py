@@ -15,7 +15,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.initialization.at_rest import (
+from acausal.solve.initialization.equilibrium_test import (
     at_rest,
     derivatives,
     equations_hold,

@@ -16,7 +16,7 @@ import numpy as np
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.initialization import unstable_text
-from acausal.solve.initialization.at_rest import at_rest, motion_text
+from acausal.solve.initialization.equilibrium_test import at_rest, motion_text
 from acausal.solve.initialization.kept import least_sharpness
 from acausal.solve.initialization.least_change import least_change
 from acausal.solve.initialization.linearized import Linearized, Linearizer, moved
