@@ -19,11 +19,11 @@ from acausal.solve.initialization.block_solve import by_blocks
 from acausal.solve.initialization.complete_by_rank import closed_guess, ranked
 from acausal.solve.initialization.conditions import flag_matters, giving, lasting
 from acausal.solve.initialization.direct import with_direct
+from acausal.solve.initialization.equilibrium import rest, rotation
 from acausal.solve.initialization.loop_states import choose_projection, independent
 from acausal.solve.initialization.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.initialization.redundancy import Redundancy
 from acausal.solve.initialization.rotation import turning_states
-from acausal.solve.initialization.steady import rest, rotation
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.structure import complete

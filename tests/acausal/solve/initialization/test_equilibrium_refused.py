@@ -15,7 +15,7 @@ from components import (
     rotational,
 )
 from models import FourBar, Squeezer
-from tests.acausal.solve.initialization.test_steady import Double, I, started
+from tests.acausal.solve.initialization.test_equilibrium import Double, I, started
 
 
 class Falling(Model):

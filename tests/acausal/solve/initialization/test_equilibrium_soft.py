@@ -12,7 +12,7 @@ from acausal import Component, Model, Scalar, chain, connect, guess, parameter, 
 from components import BodyRod, FixedTranslation, FlexibleBeam, Revolute, SubstructuredBeam, World
 from components import rotational as rot
 from components.fe import FEBody, ReducedBody, box, reduce_body
-from tests.acausal.solve.initialization.test_steady import moved, started
+from tests.acausal.solve.initialization.test_equilibrium import moved, started
 
 
 @cache

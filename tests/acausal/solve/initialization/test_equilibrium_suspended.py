@@ -15,7 +15,7 @@ from components import (
     Spring,
     World,
 )
-from tests.acausal.solve.initialization.test_steady import moved, started
+from tests.acausal.solve.initialization.test_equilibrium import moved, started
 
 
 def test_a_box_that_hangs_by_two_springs_turns_over() -> None:
