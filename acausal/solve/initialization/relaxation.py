@@ -9,7 +9,7 @@ import scipy
 
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.initialization.linearized import Linearized, Linearizer, moved
+from acausal.solve.initialization.reduced_linearization import Linearized, Linearizer, moved
 from acausal.solve.point import Point
 
 REST = POLICY.rest

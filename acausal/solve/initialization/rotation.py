@@ -23,8 +23,8 @@ from acausal.solve.initialization.equilibrium_test import (
     loops_closed,
     rates_allowed,
 )
-from acausal.solve.initialization.linearized import Linearizer, moved
 from acausal.solve.initialization.newton import algebraic
+from acausal.solve.initialization.reduced_linearization import Linearizer, moved
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

@@ -10,7 +10,7 @@ import scipy
 
 import acausal as ac
 from acausal import Model, chain, connect, guess, structural
-from acausal.solve.initialization import least_change, linearized
+from acausal.solve.initialization import minimum_norm_step, reduced_linearization
 from components import BodyRod, Fixed, FixedRotation, Revolute, SubstructuredBeam, World, WorldForce
 
 
@@ -74,8 +74,8 @@ class Rope(Model):
 def test_a_frame_bends_to_the_same_place(volumes: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Geometrically exact beams of another program: within some 1e-3 with 4 volumes, and by the square of their length."""
     calls = []
-    own = linearized.Linearizer.linearized
-    monkeypatch.setattr(linearized.Linearizer, "linearized", lambda self, at: calls.append(1) or own(self, at))
+    own = reduced_linearization.Linearizer.linearized
+    monkeypatch.setattr(reduced_linearization.Linearizer, "linearized", lambda self, at: calls.append(1) or own(self, at))
     run = ac.simulate(Frame(volumes=volumes), stop_time=0.01, intervals=2, initial="steady")
     moved = run["other.frame_b.r_0"][:, :2] - 1
     np.testing.assert_allclose(moved[0], [0.858653, -0.914174], atol=0.006 / volumes**2)
@@ -98,9 +98,9 @@ def test_orthogonal_factors_give_the_step_of_singular_values(monkeypatch: pytest
     random = np.random.default_rng(1)
     J = random.standard_normal((140, 120)) * 10.0 ** random.uniform(-4, 4, 120)
     value, way, scale = random.standard_normal(140), random.standard_normal(120), 10.0 ** random.uniform(-2, 2, 120)
-    quick = least_change.least_change(value, J, way, scale)
-    monkeypatch.setattr(least_change, "_determined", lambda *_: None)
-    slow = least_change.least_change(value, J, way, scale)
+    quick = minimum_norm_step.least_change(value, J, way, scale)
+    monkeypatch.setattr(minimum_norm_step, "_determined", lambda *_: None)
+    slow = minimum_norm_step.least_change(value, J, way, scale)
     np.testing.assert_allclose(quick[0], slow[0], rtol=1e-8)
     np.testing.assert_allclose(quick[1], slow[1], atol=1e-12)
 
@@ -109,7 +109,7 @@ def test_rows_that_leave_something_free_keep_to_singular_values() -> None:
     random = np.random.default_rng(2)
     J = random.standard_normal((140, 119)) @ random.standard_normal((119, 120))
     way = random.standard_normal(120)
-    step, free = least_change.least_change(np.zeros(140), J, way, np.ones(120))
+    step, free = minimum_norm_step.least_change(np.zeros(140), J, way, np.ones(120))
     null = np.linalg.svd(J)[2][-1]
     np.testing.assert_allclose(step, 0, atol=1e-12)
     np.testing.assert_allclose(free, null * (null @ way), atol=1e-9)
