@@ -12,8 +12,8 @@ import numpy as np
 from acausal.core import End, Rodas, StoredModel
 from acausal.core.build.compiling import CORE, FLAGS
 from acausal.policy import POLICY
+from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.initial_modes import go_on, start
-from acausal.solve.initialization.loop_states import choose_projection
 from acausal.solve.integrate.stored import stored
 from acausal.solve.problem import Problem
 from models import SCENES

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.solve.initialization.loop_states import (
+from acausal.solve.initialization.coordinate_partitioning import (
     _select,
     _spared,
     _transversality,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import scipy
 
-from acausal.solve.initialization import loop_states
-from acausal.solve.initialization.loop_states import _oblique, _select, _transversality
+from acausal.solve.initialization import coordinate_partitioning
+from acausal.solve.initialization.coordinate_partitioning import _oblique, _select, _transversality
 from acausal.solve.initialization.rank import columns_by_pivots, is_regular, least_norm, null_space, outside, rank
 from acausal.solve.initialization.regular import complement, gram, least_singular_value, unit_rows
 from acausal.solve.sparse_blocks import parts_of
