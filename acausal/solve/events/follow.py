@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.initialization.assembly import close
 from acausal.solve.initialization.coordinate_partitioning import sparing
-from acausal.solve.initialization.loops import close
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

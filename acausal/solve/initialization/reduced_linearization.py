@@ -10,9 +10,9 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
+from acausal.solve.initialization.assembly import close, polished, tighten
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, fits
 from acausal.solve.initialization.equilibrium_test import kinematic, meters
-from acausal.solve.initialization.loops import close, polished, tighten
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.initialization.rank import factored
 from acausal.solve.point import Point

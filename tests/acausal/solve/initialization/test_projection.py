@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.solve.initialization.assembly import close, levels, tighten
 from acausal.solve.initialization.coordinate_partitioning import (
     _select,
     _spared,
@@ -16,7 +17,6 @@ from acausal.solve.initialization.coordinate_partitioning import (
     independent,
     worn,
 )
-from acausal.solve.initialization.loops import close, levels, tighten
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.tangent import tangent
 from acausal.solve.integrate.order import eigenvalues_of
