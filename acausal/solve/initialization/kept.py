@@ -18,7 +18,7 @@ from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.coordinate_scaling import levels_of
 from acausal.solve.initialization.rank import pivots
-from acausal.solve.initialization.regular import gram, least_singular_value
+from acausal.solve.initialization.sparse_rank import gram, least_singular_value
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.sparse_blocks import Part

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
-from acausal.solve.initialization.regular import complement, gram, unit_rows
+from acausal.solve.initialization.sparse_rank import complement, gram, unit_rows
 from acausal.solve.problem import by_columns
 
 RANKS = POLICY.ranks

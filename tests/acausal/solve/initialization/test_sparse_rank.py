@@ -9,7 +9,7 @@ import scipy
 from acausal.solve.initialization import coordinate_partitioning
 from acausal.solve.initialization.coordinate_partitioning import _oblique, _select, _transversality
 from acausal.solve.initialization.rank import columns_by_pivots, is_regular, least_norm, null_space, outside, rank
-from acausal.solve.initialization.regular import complement, gram, least_singular_value, unit_rows
+from acausal.solve.initialization.sparse_rank import complement, gram, least_singular_value, unit_rows
 from acausal.solve.sparse_blocks import parts_of
 
 M, N = 150, 190
@@ -86,7 +86,7 @@ def test_large_parts_are_chosen_and_judged_as_small_ones(monkeypatch):
     on, levels = np.ones(30, dtype=bool), parts_of(J)
     dense = _select(levels, J.data, on)
     worst = _transversality(levels, J.data[None], dense)
-    monkeypatch.setattr(loop_states, "SMALL", 10)
+    monkeypatch.setattr(coordinate_partitioning, "SMALL", 10)
     found = _select(levels, J.data, on)
     np.testing.assert_array_equal(found, dense)
     np.testing.assert_allclose(_transversality(levels, J.data[None], found), worst, rtol=1e-3)
