@@ -19,8 +19,8 @@ from acausal.solve.diagnosis.initialization import unstable_text
 from acausal.solve.initialization.equilibrium_test import at_rest, motion_text
 from acausal.solve.initialization.kept import least_sharpness
 from acausal.solve.initialization.minimum_norm_step import least_change
+from acausal.solve.initialization.pseudo_transient import relax
 from acausal.solve.initialization.reduced_linearization import Linearized, Linearizer, moved
-from acausal.solve.initialization.relaxation import relax
 from acausal.solve.initialization.rotation import changes, cyclic, turning
 from acausal.solve.initialization.tangent import tangent
 from acausal.solve.point import Point
