@@ -22,7 +22,7 @@ from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope
 from acausal.solve.initialization.kept import least_sharpness
-from acausal.solve.initialization.tangent import Elimination, tangent
+from acausal.solve.initialization.tangent_space import Elimination, tangent
 from acausal.solve.opening import opening
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem

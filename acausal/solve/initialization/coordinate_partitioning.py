@@ -14,7 +14,7 @@ from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.coordinate_scaling import levels_of
 from acausal.solve.initialization.rank import columns_by_pivots, pivots
-from acausal.solve.initialization.tangent import Elimination
+from acausal.solve.initialization.tangent_space import Elimination
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.sparse_blocks import Part

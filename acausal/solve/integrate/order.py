@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
-from acausal.solve.initialization.tangent import of_states, tangent
+from acausal.solve.initialization.tangent_space import of_states, tangent
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

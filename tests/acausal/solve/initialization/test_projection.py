@@ -18,7 +18,7 @@ from acausal.solve.initialization.coordinate_partitioning import (
     worn,
 )
 from acausal.solve.initialization.newton import algebraic
-from acausal.solve.initialization.tangent import tangent
+from acausal.solve.initialization.tangent_space import tangent
 from acausal.solve.integrate.order import eigenvalues_of
 from acausal.solve.point import Rows
 from acausal.solve.sparse_blocks import Part, parts

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy
 
-from acausal.solve.initialization.tangent import AT_ONCE, Elimination
+from acausal.solve.initialization.tangent_space import AT_ONCE, Elimination
 
 
 @pytest.mark.parametrize("n", [3, AT_ONCE + 2])
