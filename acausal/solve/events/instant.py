@@ -12,7 +12,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.follow import follow
 from acausal.solve.events.laws import Laws
 from acausal.solve.initialization.assembly import refuse_open_loops
-from acausal.solve.initialization.assignments import MOST, Assignments
+from acausal.solve.initialization.mode_search import MOST, Assignments
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.point import Point, Rows

@@ -17,11 +17,11 @@ from acausal.solve.diagnosis.not_finite import cause, without_value
 from acausal.solve.diagnosis.singularity import undetermined
 from acausal.solve.diagnosis.undefined_conditions import undecided
 from acausal.solve.diagnosis.undefined_start_values import no_numbers
-from acausal.solve.initialization.assignments import MOST, Assignments
 from acausal.solve.initialization.complete_by_rank import leave_singular
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.equilibrium import Restless
 from acausal.solve.initialization.initialize import INITIAL, TURNING, Start, first_guess, initialize
+from acausal.solve.initialization.mode_search import MOST, Assignments
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem

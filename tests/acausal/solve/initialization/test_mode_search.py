@@ -7,7 +7,7 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, der, discrete, parameter, piecewise, reinit, time, variable, when
-from acausal.solve.initialization.assignments import Assignments
+from acausal.solve.initialization.mode_search import Assignments
 from tests.acausal.solve.saturated import Row, Saturated, Stepped
 
 
