@@ -18,7 +18,7 @@ from acausal.export.limits import Limit, limits
 from acausal.language.functions import time
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, sparing
-from acausal.solve.initialization.kept import closure_of
+from acausal.solve.initialization.independent_constraints import closure_of
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
 from acausal.symbols import dense, picked, scalars, stacked

@@ -13,8 +13,8 @@ import acausal as ac
 from acausal import connect, fixed, parts, piecewise, sin
 from acausal.compiler.constants import Constants
 from acausal.core import library
+from acausal.solve.initialization.independent_constraints import Held, kept_again
 from acausal.solve.initialization.initial_modes import start
-from acausal.solve.initialization.kept import Held, kept_again
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from components import Revolute

@@ -17,7 +17,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
-from acausal.solve.initialization.kept import Held
+from acausal.solve.initialization.independent_constraints import Held
 from acausal.solve.initialization.newton import terms
 from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
 from acausal.solve.integrate.ladder import Way

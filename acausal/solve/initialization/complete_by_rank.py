@@ -15,7 +15,7 @@ from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.assembly import close, refuse_open_loops
 from acausal.solve.initialization.conditions import soft
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
-from acausal.solve.initialization.kept import refitted
+from acausal.solve.initialization.independent_constraints import refitted
 from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.initialization.redundancy import Redundancy, find_redundancy

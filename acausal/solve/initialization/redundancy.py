@@ -14,7 +14,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.initialization.assembly import close
-from acausal.solve.initialization.kept import droppable
+from acausal.solve.initialization.independent_constraints import droppable
 from acausal.solve.initialization.rank import is_regular, null_space, pivots, rank, scaled
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem

@@ -12,7 +12,7 @@ from acausal.compiler.once import making
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, chosen, least_cosine, suits, worn
-from acausal.solve.initialization.kept import refitted
+from acausal.solve.initialization.independent_constraints import refitted
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.shares import shared
 from acausal.solve.integrate.consistent import Consistent

@@ -10,7 +10,7 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.core_equations import core_equations
 from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
-from acausal.solve.initialization.kept import Held
+from acausal.solve.initialization.independent_constraints import Held
 from acausal.solve.integrate.branches import first_jump
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat

@@ -7,7 +7,7 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
-from acausal.solve.initialization.kept import Held
+from acausal.solve.initialization.independent_constraints import Held
 from acausal.solve.looks import spread
 from acausal.solve.point import Rows
 from acausal.solve.problem import Problem

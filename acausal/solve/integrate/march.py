@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.initialization.kept import Held
+from acausal.solve.initialization.independent_constraints import Held
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.by_core import ByCore
 from acausal.solve.integrate.energy import along

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.initialization.kept import Held
+from acausal.solve.initialization.independent_constraints import Held
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
