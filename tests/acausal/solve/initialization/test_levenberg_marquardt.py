@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy
 
-from acausal.solve.initialization.descent import descend
+from acausal.solve.initialization.levenberg_marquardt import descend
 
 RADIUS = 2.0
 
