@@ -13,7 +13,7 @@ from acausal.errors import caution
 from acausal.flatten.tree import walk
 from acausal.language.functions import time
 from acausal.solve.initialization.equilibrium_test import at_rest, meters, rates_allowed
-from acausal.solve.initialization.rotation import Turning, changes, cyclic, turning
+from acausal.solve.initialization.steady_rotation import Turning, changes, cyclic, turning
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

@@ -11,7 +11,7 @@ from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.initialization.initial_modes import places_text, start
-from acausal.solve.initialization.rotation import is_steady
+from acausal.solve.initialization.steady_rotation import is_steady
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

@@ -21,7 +21,7 @@ from acausal.solve.initialization.independent_constraints import least_sharpness
 from acausal.solve.initialization.minimum_norm_step import least_change
 from acausal.solve.initialization.pseudo_transient import relax
 from acausal.solve.initialization.reduced_linearization import Linearized, Linearizer, moved
-from acausal.solve.initialization.rotation import changes, cyclic, turning
+from acausal.solve.initialization.steady_rotation import changes, cyclic, turning
 from acausal.solve.initialization.tangent_space import tangent
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem

@@ -23,7 +23,7 @@ from acausal.solve.initialization.direct import with_direct
 from acausal.solve.initialization.equilibrium import rest, rotation
 from acausal.solve.initialization.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.initialization.redundancy import Redundancy
-from acausal.solve.initialization.rotation import turning_states
+from acausal.solve.initialization.steady_rotation import turning_states
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.structure import complete

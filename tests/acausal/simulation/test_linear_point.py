@@ -13,7 +13,13 @@ from acausal import Model, Scalar, chain, connect, fixed, guess, output
 from components import Body, Fixed, FixedTranslation, FlexibleBeam, Prismatic, Revolute, SpringDamperParallel, World
 from components.rotational import Inertia, Speed
 from models import SimplePendulum
-from tests.acausal.solve.initialization.test_rotation import Blade, DrivenFlyball, MotorAndFan, OnAShaft, OnASpring
+from tests.acausal.solve.initialization.test_steady_rotation import (
+    Blade,
+    DrivenFlyball,
+    MotorAndFan,
+    OnAShaft,
+    OnASpring,
+)
 
 
 def told(model: Model, **how: str) -> list[str]:
