@@ -16,10 +16,10 @@ from acausal.solve.initialization.assembly import close, refuse_open_loops
 from acausal.solve.initialization.conditions import soft
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.independent_constraints import refitted
+from acausal.solve.initialization.minimum_norm_reactions import shared
 from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.initialization.redundancy import Redundancy, find_redundancy
-from acausal.solve.initialization.shares import shared
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

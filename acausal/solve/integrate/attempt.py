@@ -13,8 +13,8 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, chosen, least_cosine, suits, worn
 from acausal.solve.initialization.independent_constraints import refitted
+from acausal.solve.initialization.minimum_norm_reactions import shared
 from acausal.solve.initialization.newton import algebraic
-from acausal.solve.initialization.shares import shared
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import refined
 from acausal.solve.integrate.flat import looked_at
