@@ -19,6 +19,7 @@ from acausal.result.statistics import Statistics
 from acausal.signals import Signals
 from acausal.solve.beginning import Beginning, begin
 from acausal.solve.checks.departed import first_refusal, refuse_departure
+from acausal.solve.checks.mobility import locked
 from acausal.solve.checks.opened import opened
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import doubts
@@ -28,7 +29,6 @@ from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
 from acausal.solve.initialization.initialize import Start
-from acausal.solve.initialization.locked import locked
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure, Kind
