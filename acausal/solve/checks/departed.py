@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal.errors import SimulationError
 from acausal.policy import POLICY
-from acausal.solve.checks.meeting import Meeting, first_meeting
+from acausal.solve.checks.separation import Meeting, first_meeting
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.looks import spread
 from acausal.solve.point import Point, Rows

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
-from acausal.solve.checks.meeting import meeting_ahead
+from acausal.solve.checks.separation import meeting_ahead
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope, without_value
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.initialization.redundancy import Redundancy, is_singular
