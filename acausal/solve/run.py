@@ -19,8 +19,8 @@ from acausal.result.statistics import Statistics
 from acausal.signals import Signals
 from acausal.solve.beginning import Beginning, begin
 from acausal.solve.checks.departed import first_refusal, refuse_departure
+from acausal.solve.checks.loop_drift import opened
 from acausal.solve.checks.mobility import locked
-from acausal.solve.checks.opened import opened
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import doubts
 from acausal.solve.diagnosis.failure import failure_text
