@@ -21,7 +21,7 @@ from acausal.solve.beginning import Beginning, begin
 from acausal.solve.checks.departed import first_refusal, refuse_departure
 from acausal.solve.checks.loop_drift import opened
 from acausal.solve.checks.mobility import locked
-from acausal.solve.checks.promises import broken_promises
+from acausal.solve.checks.smoothness import broken_promises
 from acausal.solve.checks.validity import doubts
 from acausal.solve.diagnosis.failure import failure_text
 from acausal.solve.events.agenda import part_of_time
