@@ -18,7 +18,7 @@ from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.signals import Signals
 from acausal.solve.beginning import Beginning, begin
-from acausal.solve.checks.departed import first_refusal, refuse_departure
+from acausal.solve.checks.constraint_drift import first_refusal, refuse_departure
 from acausal.solve.checks.loop_drift import opened
 from acausal.solve.checks.mobility import locked
 from acausal.solve.checks.smoothness import broken_promises
