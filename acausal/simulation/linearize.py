@@ -22,8 +22,8 @@ from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope
 from acausal.solve.initialization.independent_constraints import least_sharpness
+from acausal.solve.initialization.initial_events import opening
 from acausal.solve.initialization.tangent_space import Elimination, tangent
-from acausal.solve.opening import opening
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars

@@ -10,10 +10,10 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import latest, making
 from acausal.solve.checks.validity import check_start
+from acausal.solve.initialization.initial_events import Opening
 from acausal.solve.initialization.initial_modes import go_on, start
 from acausal.solve.initialization.initialize import Start
 from acausal.solve.integrate.order import Spectrum
-from acausal.solve.opening import Opening
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 

@@ -55,7 +55,7 @@ SOLVE = (
     "events",
     "checks",
     "diagnosis.failure",
-    "opening",
+    "initialization.initial_events",
     "beginning",
     "given",
     "run",

@@ -75,7 +75,9 @@ def test_a_frame_bends_to_the_same_place(volumes: int, monkeypatch: pytest.Monke
     """Geometrically exact beams of another program: within some 1e-3 with 4 volumes, and by the square of their length."""
     calls = []
     own = reduced_linearization.Linearizer.linearized
-    monkeypatch.setattr(reduced_linearization.Linearizer, "linearized", lambda self, at: calls.append(1) or own(self, at))
+    monkeypatch.setattr(
+        reduced_linearization.Linearizer, "linearized", lambda self, at: calls.append(1) or own(self, at)
+    )
     run = ac.simulate(Frame(volumes=volumes), stop_time=0.01, intervals=2, initial="steady")
     moved = run["other.frame_b.r_0"][:, :2] - 1
     np.testing.assert_allclose(moved[0], [0.858653, -0.914174], atol=0.006 / volumes**2)
