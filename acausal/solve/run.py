@@ -17,7 +17,6 @@ from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.signals import Signals
-from acausal.solve.beginning import Beginning, begin
 from acausal.solve.checks.constraint_drift import first_refusal, refuse_departure
 from acausal.solve.checks.loop_drift import opened
 from acausal.solve.checks.mobility import locked
@@ -28,6 +27,7 @@ from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
+from acausal.solve.initialization.initial_point import Beginning, begin
 from acausal.solve.initialization.initialize import Start
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator

@@ -56,7 +56,7 @@ SOLVE = (
     "checks",
     "diagnosis.failure",
     "initialization.initial_events",
-    "beginning",
+    "initialization.initial_point",
     "given",
     "run",
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import acausal as ac
-from acausal.solve.beginning import kept
+from acausal.solve.initialization.initial_point import kept
 
 
 def run_anew(compiled: ac.CompiledModel, **how: Any) -> ac.Result:

@@ -11,7 +11,7 @@ import pytest
 import acausal as ac
 from acausal import AcausalWarning, Model, Scalar, chain, der, fixed, guess, parameter, sin, variable
 from acausal.compiler.once import making
-from acausal.solve import beginning
+from acausal.solve.initialization import initial_point
 from components import Body, FixedTranslation, Revolute, World
 from models import FourBar
 
@@ -30,8 +30,8 @@ class Decay(Model):
 def starts(monkeypatch) -> list[Any]:
     """Count how often a start is sought."""
     seen: list[Any] = []
-    start = beginning.start
-    monkeypatch.setattr(beginning, "start", lambda *arguments: seen.append(arguments) or start(*arguments))
+    start = initial_point.start
+    monkeypatch.setattr(initial_point, "start", lambda *arguments: seen.append(arguments) or start(*arguments))
     return seen
 
 
@@ -68,7 +68,7 @@ def test_a_run_again_is_the_same_to_the_last_bit():
 def test_seconds_of_the_beginning_count_in_every_run():
     compiled = ac.compile(FourBar())
     runs = [ac.simulate(compiled, stop_time=0.01, intervals=1) for _ in range(2)]
-    (first,) = compiled.kept[beginning.kept.__wrapped__].values()
+    (first,) = compiled.kept[initial_point.kept.__wrapped__].values()
     assert all(run.stats.solve_seconds > first.seconds > 0 for run in runs)
 
 
