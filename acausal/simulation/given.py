@@ -15,7 +15,7 @@ from acausal.locks import alone
 from acausal.result import Result
 from acausal.result.lookup import find, names
 from acausal.result.made import checked_columns, checked_outputs, checked_times, kept_of
-from acausal.solve.given import evaluator_of
+from acausal.solve.results.external import evaluator_of
 from acausal.units import parse
 
 

@@ -30,7 +30,6 @@ from acausal.solve.events.course import Course
 from acausal.solve.initialization.initial_point import Beginning, begin
 from acausal.solve.initialization.initialize import Start
 from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
 from acausal.solve.integrate.settings import Progress, Settings
@@ -38,6 +37,7 @@ from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
+from acausal.solve.results.evaluator import Evaluator
 
 PLAIN = 10  # numbers of each output beside its values
 SHOWN = 5  # times in a message

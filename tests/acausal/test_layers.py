@@ -53,11 +53,11 @@ SOLVE = (
     "initialization.initial_modes",
     "integrate",
     "events",
+    "results",
     "checks",
     "diagnosis.failure",
     "initialization.initial_events",
     "initialization.initial_point",
-    "given",
     "run",
 )
 # Files that may import a package which is installed with an extra, and only there.

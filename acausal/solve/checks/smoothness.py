@@ -18,9 +18,9 @@ from acausal.policy import POLICY
 from acausal.solve.checks.validity import Watch, watch
 from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
 from acausal.solve.point import Rows
+from acausal.solve.results.evaluator import Evaluator
 from acausal.symbols import scalars, stacked
 
 PROMISES = POLICY.promises

@@ -17,10 +17,10 @@ from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation, Separation
 from acausal.policy import POLICY
-from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.results.evaluator import Evaluator
 from acausal.symbols import stacked
 
 VALIDITY = POLICY.validity

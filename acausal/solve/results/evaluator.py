@@ -11,8 +11,8 @@ from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol
 from acausal.solve.diagnosis.not_finite import without_value
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.known import Known
 from acausal.solve.point import Rows
+from acausal.solve.results.prescribed import Known
 
 MEND = "Say what holds there: piecewise((value, condition), ..., otherwise)."
 

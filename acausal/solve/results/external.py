@@ -14,10 +14,10 @@ from acausal.policy import POLICY
 from acausal.result.lookup import Quantity
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.evaluator import Evaluator
-from acausal.solve.integrate.known import Known
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.results.evaluator import Evaluator
+from acausal.solve.results.prescribed import Known
 from acausal.symbols import scalars
 
 # Names in a message.
