@@ -13,7 +13,7 @@ from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.loop_directions import differing
-from acausal.solve.initialization.conditions import giving, soft
+from acausal.solve.initialization.fixed_states import giving, soft
 from acausal.solve.initialization.levenberg_marquardt import Matrix, Residuals, descend
 from acausal.solve.initialization.rank import least_norm
 from acausal.solve.point import Point

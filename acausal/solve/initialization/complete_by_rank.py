@@ -13,8 +13,8 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.assembly import close, refuse_open_loops
-from acausal.solve.initialization.conditions import soft
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
+from acausal.solve.initialization.fixed_states import soft
 from acausal.solve.initialization.independent_constraints import refitted
 from acausal.solve.initialization.minimum_norm_reactions import shared
 from acausal.solve.initialization.newton import InitialSystem

@@ -17,10 +17,9 @@ from acausal.solve.diagnosis.conflicts import contradiction
 from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.block_solve import by_blocks
 from acausal.solve.initialization.complete_by_rank import closed_guess, ranked
-from acausal.solve.initialization.conditions import flag_matters, giving, lasting
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, independent
-from acausal.solve.initialization.direct import with_direct
 from acausal.solve.initialization.equilibrium import rest, rotation
+from acausal.solve.initialization.fixed_states import flag_matters, giving, lasting, with_direct
 from acausal.solve.initialization.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.initialization.redundancy import Redundancy
 from acausal.solve.initialization.steady_rotation import turning_states

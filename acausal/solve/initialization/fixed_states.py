@@ -1,13 +1,18 @@
-"""What conditions of the start say by themselves."""
+"""Conditions of the start that give one state each by themselves, and other properties of single conditions."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.language.functions import initial as initial_flag
+from acausal.solve.point import Point
+from acausal.solve.problem import Problem
 from acausal.symbols import scalars
 
 
@@ -50,3 +55,20 @@ def soft(compiled: CompiledModel) -> frozenset[int]:
 def _curved(compiled: CompiledModel) -> list[bool]:
     """Which conditions are not linear in the unknowns."""
     return ca.which_depends(compiled.conditions, ca.vertcat(compiled.reduced.x, compiled.reduced.z), 2, True)
+
+
+def with_direct(problem: Problem, direct: np.ndarray, at: Point, local: Local) -> Point:
+    """Give states the values that conditions state for them, see `InitialSystem.given`; `local` is the initial system there."""
+    rows, states = direct[0] + problem.nx, direct[1]
+    x = at.x.copy()
+    x[states] -= local.value[rows] / local.entries[_last_entries(problem.compiled)[rows]]
+    return replace(at, x=x)
+
+
+@once
+def _last_entries(compiled: CompiledModel) -> np.ndarray:
+    """Place of the last entry of each row of the Jacobian; of the only one in the rows of conditions that give a state."""
+    J = compiled.pattern
+    last = np.full(J.shape[0], -1)
+    last[J.indices] = np.arange(J.nnz)
+    return last
