@@ -18,7 +18,7 @@ class Point:
     x: np.ndarray
     z: np.ndarray
     constants: Constants
-    truth: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    mode: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=bool))
 
     @property
     def y(self) -> np.ndarray:
@@ -27,7 +27,7 @@ class Point:
 
     def differs(self, other: Point) -> bool:
         """Whether states, constants or what holds differ."""
-        mine, others = ((at.x, at.constants.vector, at.truth) for at in (self, other))
+        mine, others = ((at.x, at.constants.vector, at.mode) for at in (self, other))
         return any((one != another).any() for one, another in zip(mine, others, strict=True))
 
     def with_y(self, y: np.ndarray) -> Point:

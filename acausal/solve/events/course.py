@@ -90,7 +90,7 @@ class Course:
     def idle(self) -> list[str]:
         """Name statements that hold after the start, and whose condition nothing but they themselves makes false again."""
         at = self.first
-        held = [] if at is None else [k for k in self.guards.lone if at.truth[self.guards.watched.index(k)]]
+        held = [] if at is None else [k for k in self.guards.lone if at.mode[self.guards.watched.index(k)]]
         return [
             f"{self.guards.guards[k].origin}: the condition holds after the start, t = {self.times[0]:g} s, and acts where it "
             "becomes true: it never does, as nothing else moves its instant. Give that a start= after the start time, "
@@ -130,7 +130,7 @@ class Course:
         agenda = self.agenda
         now, after = agenda.on(at.time, agenda.near), agenda.on(at.time + 2 * agenda.near)
         fired = agenda.fired(now, held)
-        switched = bool((now != held).any() and len(at.truth))
+        switched = bool((now != held).any() and len(at.mode))
         if fired or switched or agenda.is_planned(at):
             at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.constants(at.constants, now))
         constants = agenda.constants(at.constants, after)
@@ -138,7 +138,7 @@ class Course:
             acts = ~self.instants.is_switch
             with suppress(Cycling, InitializationError, Failure):  # laws without values there do not matter
                 # What acts is kept from becoming true.
-                new = self.instants.settle(replace(at, truth=at.truth | acts), constants=constants, due=acts)[0]
+                new = self.instants.settle(replace(at, mode=at.mode | acts), constants=constants, due=acts)[0]
                 self.integrator.trace.put(-1, new)
 
     def _count(self, time: float, guards: list[int]) -> None:

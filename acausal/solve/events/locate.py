@@ -165,14 +165,14 @@ class Locator:
         return self._alone(at, here)[0]
 
     def _alone(self, at: Point, here: Point) -> Samples:
-        return self._samples(replace(here, truth=at.truth), Rows.of(here))
+        return self._samples(replace(here, mode=at.mode), Rows.of(here))
 
     def _samples(self, at: Point, rows: Rows) -> Samples:
         """Rows of the segment of a point, consistent as far as the watched conditions need it, on the side of that point."""
         problem = self.integrator.problem
         rows, _ = self.integrator.consistent(rows, self.instants.guards.needs)
         value, rate = problem.watched(rows)
-        side = np.where(at.truth, -1.0, 1.0)
+        side = np.where(at.mode, -1.0, 1.0)
         return Samples(at, rows, value * side, rate * side)
 
     def _seen_between(self, samples: Samples, level: np.ndarray, turning: list[int], end: int) -> np.ndarray:

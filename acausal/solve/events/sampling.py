@@ -72,7 +72,7 @@ class Sampling:
         state = SampledState(time=at.time, step=self.ahead.step)
         with trace.counting(way.method, lambda: state.counts):
             found = sampler.go(
-                *(state, at.x, at.z, at.constants.vector, at.truth),
+                *(state, at.x, at.z, at.constants.vector, at.mode),
                 end=end,
                 steps=at_once(sampler.sampled.equations),
                 density=self.ahead.stride.density,
@@ -95,7 +95,7 @@ class Sampling:
         leg = Leg(rows, found.work, constants, state.steps)
         return Passed(
             leg,
-            replace(leg.end(at), time=state.time, truth=found.truth),
+            replace(leg.end(at), time=state.time, mode=found.truth),
             found.events[instants].tolist(),
         )
 

@@ -52,11 +52,11 @@ class Opening:
         """
         guards = self.problem.compiled.guards
         before, _ = self.agenda.at_start(at, self.agenda.on(self.later), self.instants)
-        if not len(before.truth):
+        if not len(before.mode):
             return
         planned = {k for k, _ in guards.plans}
-        holds = self.instants.holds(before, np.zeros(len(before.truth), dtype=bool))
-        begins = holds & ~before.truth & ~self.instants.is_switch
+        holds = self.instants.holds(before, np.zeros(len(before.mode), dtype=bool))
+        begins = holds & ~before.mode & ~self.instants.is_switch
         acts = [k for k in self.instants.watched[begins].tolist() if k not in planned]
         if acts and not is_steady(self.problem, self._settled(before, [])):
             raise InitializationError(

@@ -91,7 +91,7 @@ def _started(problem: Problem, time: float, later: float, initial: str, decides:
         doubtful = _doubtful(problem, at) if tried.count > 1 and not np.all(same) else np.empty(0, dtype=int)
         same[doubtful] = True
         if np.all(same):
-            return replace(begun, point=replace(at, truth=_first_truth(problem, at, doubtful, head)))
+            return replace(begun, point=replace(at, mode=_initial_mode(problem, at, doubtful, head)))
         head = tried.then(head, np.where(same, head, new))
     raise InitializationError(_no_switches(problem.compiled, time, tried))
 
@@ -166,7 +166,7 @@ def _doubtful(problem: Problem, at: Point) -> np.ndarray:
     return watched[near & (watched < guards.n_switches)]
 
 
-def _first_truth(problem: Problem, at: Point, doubtful: np.ndarray, head: np.ndarray) -> np.ndarray:
+def _initial_mode(problem: Problem, at: Point, doubtful: np.ndarray, head: np.ndarray) -> np.ndarray:
     """Which watched conditions hold at the start; those that act at the start do not hold before.
 
     Switches that are in doubt are as they are in `head`.

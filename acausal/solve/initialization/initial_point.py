@@ -61,7 +61,7 @@ def kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
     found = _found(Problem(compiled, p, float(feedback), runs=True), float(time), float(later), initial)
     # Two runs share it.
     for at in (found.start.point, found.at):
-        for array in (at.x, at.z, at.truth):
+        for array in (at.x, at.z, at.mode):
             array.setflags(write=False)
     return found
 

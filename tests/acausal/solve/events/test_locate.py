@@ -61,10 +61,10 @@ def leg(times) -> Leg:
     return Leg(Rows.within(times, times[:, None], np.zeros((n, 0)), NOTHING.vector), np.zeros((n, 2)), NOTHING, n)
 
 
-def first(motion: Motion, times, truth=None, **how):
+def first(motion: Motion, times, mode=None, **how):
     """Look along rows at some times, the first of which is the start."""
-    truth = np.zeros(len(motion.functions), dtype=bool) if truth is None else np.array(truth)
-    at = Point(float(times[0]), np.array([times[0]], dtype=float), np.zeros(0), NOTHING, truth)
+    mode = np.zeros(len(motion.functions), dtype=bool) if mode is None else np.array(mode)
+    at = Point(float(times[0]), np.array([times[0]], dtype=float), np.zeros(0), NOTHING, mode)
     return motion.locator().first(at, leg(times[1:]), **how)
 
 
@@ -110,7 +110,7 @@ def test_few_looks_narrow_it_down(functions):
 def test_the_side_counts_and_not_the_sign():
     """A condition that holds is left when its excess becomes positive."""
     motion = Motion(lambda x: (x - 1.3, np.ones_like(x)))
-    assert first(motion, GRID, truth=[True]).after.time == pytest.approx(1.3, abs=1e-11)
+    assert first(motion, GRID, mode=[True]).after.time == pytest.approx(1.3, abs=1e-11)
 
 
 @pytest.mark.parametrize("depth", [0.05, 1e-4, 1e-6])
