@@ -21,7 +21,7 @@ from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope
-from acausal.solve.initialization.independent_constraints import least_sharpness
+from acausal.solve.initialization.independent_constraints import smallest_singular_value
 from acausal.solve.initialization.initial_events import opening
 from acausal.solve.initialization.tangent_space import Elimination, tangent
 from acausal.solve.point import Point
@@ -154,7 +154,7 @@ def linearize(
 
 def _refuse_flat(problem: Problem, at: Point, rests: bool) -> None:
     """Refuse flat positions of closed loops; near one, a rest is not known well enough for the forces that are large there."""
-    if least_sharpness(problem, at) <= (POLICY.loops.flat if rests else NEAR_FLAT):
+    if smallest_singular_value(problem, at) <= (POLICY.loops.flat if rests else NEAR_FLAT):
         raise InitializationError(f"the model cannot be linearised: {RESTS_FLAT if rests else FLAT}")
 
 

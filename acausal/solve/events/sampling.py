@@ -17,7 +17,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
-from acausal.solve.initialization.independent_constraints import Held
+from acausal.solve.initialization.independent_constraints import IndependentConstraints
 from acausal.solve.initialization.newton import terms
 from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
 from acausal.solve.integrate.ladder import Way
@@ -99,7 +99,7 @@ class Sampling:
             found.events[instants].tolist(),
         )
 
-    def _is_sure(self, held: Held | None, rows: Rows, instants: np.ndarray) -> bool:
+    def _is_sure(self, held: IndependentConstraints | None, rows: Rows, instants: np.ndarray) -> bool:
         """Whether closed loops pass no flat position in rows; elsewhere, whether equations hold at the instants."""
         if held is None:
             return self._hold(rows[instants])

@@ -15,7 +15,7 @@ from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.assembly import close, refuse_open_loops
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.fixed_states import soft
-from acausal.solve.initialization.independent_constraints import refitted
+from acausal.solve.initialization.independent_constraints import reselected
 from acausal.solve.initialization.minimum_norm_reactions import shared
 from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
@@ -52,7 +52,7 @@ def closed_guess(problem: Problem, at: Point, given: Mapping[int, int]) -> tuple
     closures = problem.compiled.constraints.closures
     counts = np.array([k not in redundancy.dropped for k in closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
-    closed = replace(closed, constants=refitted(problem, closed))
+    closed = replace(closed, constants=reselected(problem, closed))
     closed = replace(closed, constants=shared(problem, closed))
     left = {k for k, on in zip(closures, closed.constants.closures, strict=True) if not on}
     redundancy = replace(redundancy, dropped=tuple(sorted(left | set(redundancy.dropped) - set(closures))))

@@ -17,7 +17,7 @@ from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.initialization import unstable_text
 from acausal.solve.initialization.equilibrium_test import at_rest, motion_text
-from acausal.solve.initialization.independent_constraints import least_sharpness
+from acausal.solve.initialization.independent_constraints import smallest_singular_value
 from acausal.solve.initialization.minimum_norm_step import least_change
 from acausal.solve.initialization.pseudo_transient import relax
 from acausal.solve.initialization.reduced_linearization import Linearized, Linearizer, moved
@@ -77,7 +77,7 @@ class Equilibrium(Linearizer):
             found = self.linearized(nearly)
             rate = self._growing(found)[0]
         if rate:
-            flat = least_sharpness(self.problem, found.point) <= POLICY.loops.flat
+            flat = smallest_singular_value(self.problem, found.point) <= POLICY.loops.flat
             caution(unstable_text(self.problem.compiled, self.guess.time, rate, flat))
         return found.point
 

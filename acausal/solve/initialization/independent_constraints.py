@@ -27,7 +27,7 @@ RANKS = POLICY.ranks
 
 
 @dataclass(frozen=True, eq=False)
-class Held:
+class IndependentConstraints:
     """Constraints of closed loops at n points, part by part.
 
     Parameters
@@ -46,7 +46,7 @@ class Held:
     constants: Constants
 
     @classmethod
-    def at(cls, problem: Problem, at: Point) -> Held:
+    def at(cls, problem: Problem, at: Point) -> IndependentConstraints:
         """Return them at one point."""
         return cls(problem, np.array([at.time]), at.x[None], at.constants)
 
@@ -71,7 +71,7 @@ class Held:
         return held / np.where(most > 0, most, 1.0)[:, c.kinds[rows]]
 
     @cached_property
-    def sharpness(self) -> np.ndarray:
+    def smallest_singular_values(self) -> np.ndarray:
         """Smallest singular value of each part, 0 in a flat position, shape (m, n).
 
         Of constraints that follow from one another it is that of all, of as many as are kept: the least that is not 0
@@ -81,7 +81,7 @@ class Held:
         return np.array(found).reshape(len(found), len(self.times))
 
     @cached_property
-    def fitness(self) -> np.ndarray:
+    def conditioning(self) -> np.ndarray:
         """How well the constraints that are kept hold the others: 1 is best, 0 is not at all; shape (n,).
 
         It is the smallest singular value of the kept ones over that of all, see `sharpness`, or in large mechanisms, where the
@@ -94,31 +94,33 @@ class Held:
             if np.sum(on) > RANKS.small:
                 own = np.array([_spanning(part, self.J[place], on, spare) for place in range(len(found))])
             else:
-                of_all = np.maximum(self.sharpness[k], np.finfo(float).tiny)
+                of_all = np.maximum(self.smallest_singular_values[k], np.finfo(float).tiny)
                 own = _smallest(part, self.J, on, np.zeros_like(spare)) / of_all
             found = np.fmin(found, own)
         return found
 
 
-def least_sharpness(problem: Problem, at: Point) -> float:
+def smallest_singular_value(problem: Problem, at: Point) -> float:
     """Return the smallest singular value of the constraints at a point, 0 in a flat position, inf without loops."""
     return (
-        float(np.min(Held.at(problem, at).sharpness, initial=np.inf)) if problem.compiled.constraints.size else np.inf
+        float(np.min(IndependentConstraints.at(problem, at).smallest_singular_values, initial=np.inf))
+        if problem.compiled.constraints.size
+        else np.inf
     )
 
 
-def refitted(problem: Problem, at: Point) -> Constants:
+def reselected(problem: Problem, at: Point) -> Constants:
     """Return the constants of a point, with others of the constraints kept where those that are hold the others hardly.
 
     The projection is that of before.
     """
-    held = Held.at(problem, at)
-    if at.constants.all_count or held.fitness[0] >= POLICY.loops.fairly:
+    held = IndependentConstraints.at(problem, at)
+    if at.constants.all_count or held.conditioning[0] >= POLICY.loops.fairly:
         return at.constants
-    return kept_again(held)
+    return selection(held)
 
 
-def kept_again(held: Held) -> Constants:
+def selection(held: IndependentConstraints) -> Constants:
     """Return constants with which as many constraints are kept at one point as before, those that hold the others best."""
     compiled, constants = held.problem.compiled, held.constants
     closures = constants.closures.copy()
@@ -136,7 +138,7 @@ def kept_again(held: Held) -> Constants:
 
 
 @once
-def droppable(compiled: CompiledModel) -> np.ndarray:
+def may_be_redundant(compiled: CompiledModel) -> np.ndarray:
     """Which closures may be dropped: those on which a flow works."""
     return np.array([not closure.dual.is_constant() for closure in compiled.reduced.flat.loops.closures], dtype=bool)
 
@@ -146,7 +148,7 @@ def closure_of(compiled: CompiledModel) -> np.ndarray:
     """Closure of each residual of the constraints, -1 where none may be dropped."""
     c = compiled.constraints
     found = np.full(c.size, -1)
-    for closure in np.flatnonzero(droppable(compiled)).tolist() if c.closures else ():
+    for closure in np.flatnonzero(may_be_redundant(compiled)).tolist() if c.closures else ():
         found[list(c.rows[c.closures[closure]])] = closure
     return found
 

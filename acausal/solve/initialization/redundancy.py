@@ -14,7 +14,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.initialization.assembly import close
-from acausal.solve.initialization.independent_constraints import droppable
+from acausal.solve.initialization.independent_constraints import may_be_redundant
 from acausal.solve.initialization.rank import is_regular, null_space, pivots, rank, scaled
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -73,7 +73,7 @@ def _weight(compiled: CompiledModel) -> np.ndarray:
     """Those that cannot be dropped come first."""
     c = compiled.constraints
     weight = np.full(len(c.rows), RANKS.kept)
-    weight[np.array(c.closures, dtype=int)[droppable(compiled)]] = 1.0
+    weight[np.array(c.closures, dtype=int)[may_be_redundant(compiled)]] = 1.0
     return weight
 
 

@@ -12,7 +12,7 @@ from acausal.compiler.once import making
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, chosen, least_cosine, suits, worn
-from acausal.solve.initialization.independent_constraints import refitted
+from acausal.solve.initialization.independent_constraints import reselected
 from acausal.solve.initialization.minimum_norm_reactions import shared
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
@@ -126,7 +126,7 @@ class Integrator:
 
     def _refitted(self, at: Point) -> Point:
         """Return the point with other constraints kept, where those that are do not suit it."""
-        constants = refitted(self.problem, at)
+        constants = reselected(self.problem, at)
         if np.array_equal(constants.closures, at.constants.closures):
             return at
         self.trace.choices += 1
