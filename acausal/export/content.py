@@ -17,7 +17,7 @@ from acausal.export.given import Given
 from acausal.export.limits import Limit, limits
 from acausal.language.functions import time
 from acausal.solve.initialization.assembly import levels
-from acausal.solve.initialization.coordinate_partitioning import choose_projection, sparing
+from acausal.solve.initialization.coordinate_partitioning import choose_projection, closing_scales
 from acausal.solve.initialization.independent_constraints import closure_of
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
@@ -157,7 +157,7 @@ class Content:
         """Sizes of the states with which loops follow a jump."""
         if not self.compiled.constraints.size:
             return self.problem.nominal[: self.compiled.nx]
-        return sparing(self.problem, self.beginning.at, np.empty(0, dtype=int))
+        return closing_scales(self.problem, self.beginning.at, np.empty(0, dtype=int))
 
     def _square(self, name: str, residuals: ca.SX, argument: int | None, n: int) -> dict[str, bytes]:
         """Equations for the algebraic unknowns, or where no argument is given for these and the states."""

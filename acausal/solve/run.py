@@ -247,7 +247,7 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         event_times=done.course.events,
         loops=lambda: loops_at(compiled.reduced, begun.found(compiled)),
         redundant_in_parts=lambda: parts_at(compiled.reduced, begun.found(compiled)),
-        independent_states=lambda: list(begun.independent),
+        independent_states=lambda: list(begun.independent_states),
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.policy import POLICY
 from acausal.solve.initialization.assembly import close
-from acausal.solve.initialization.coordinate_partitioning import sparing
+from acausal.solve.initialization.coordinate_partitioning import closing_scales
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
@@ -38,7 +38,7 @@ def follow(problem: Problem, before: Point, after: Point, held: np.ndarray) -> t
     mismatch : float
         Largest residual, over its size.
     """
-    sizes = sparing(problem, before, held)
+    sizes = closing_scales(problem, before, held)
     way = after.x[held] - before.x[held]
     far = np.max(np.abs(way) / problem.nominal[held], initial=0.0)
     parts = int(np.clip(np.ceil(far / INSTANTS.part), 1, INSTANTS.parts))

@@ -41,10 +41,10 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
         Jacobian as it changes on the way, stiff coordinates the less.
     """
     moving = _moving(problem, at, spare)
-    return moving if moves else chosen(problem, replace(at, constants=moving))
+    return moving if moves else partitioned(problem, replace(at, constants=moving))
 
 
-def chosen(problem: Problem, at: Point) -> Constants:
+def partitioned(problem: Problem, at: Point) -> Constants:
     """Return the constants with which some coordinates follow from the others, at a point whose projection moves."""
     c = problem.compiled.constraints
     J, sizes = _held(problem, Rows.of(at), at.constants)
@@ -61,14 +61,14 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
     J, sizes = _held(problem, Rows.of(at), at.constants)
     J = J[0] * on[rows]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
-    weights = _spared(levels_of(problem.compiled), J, stiffness[columns], problem.feedback)
+    weights = _stiffness_weights(levels_of(problem.compiled), J, stiffness[columns], problem.feedback)
     length = np.sqrt(np.bincount(rows, (J * weights) ** 2, minlength=c.size))
     length = np.where(length > 0, length, 1.0)[rows]
     return replace(at.constants, moves=True, D=on[rows] * weights * sizes**2 / length)
 
 
 @np.errstate(all="ignore")
-def sparing(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
+def closing_scales(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
     """Return sizes of the states with which loops close, shape (nx,): stiff ones are small, where others suffice to close them.
 
     Stiff is what is so much stiffer than these.
@@ -98,9 +98,9 @@ def sparing(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
 
 
 @np.errstate(all="ignore")
-def independent(problem: Problem, at: Point) -> tuple[str, ...]:
+def independent_states(problem: Problem, at: Point) -> tuple[str, ...]:
     """Names of the states that do not follow from others, at a point with the projection that moves."""
-    follows = set(problem.compiled.constraints.entries[1][chosen(problem, at).D != 0].tolist())
+    follows = set(problem.compiled.constraints.entries[1][partitioned(problem, at).D != 0].tolist())
     return tuple(name for k, name in enumerate(problem.compiled.states) if k not in follows)
 
 
@@ -167,7 +167,7 @@ def _candidates(part: Part, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, 
     return part.rows[active[row]], part.columns[order[column]], sizes
 
 
-def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
+def _stiffness_weights(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
     """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
 
     Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
@@ -194,7 +194,7 @@ def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray, known: Spa
             continue
         if len(on) > SMALL:
             to = part.sparse(D)[on]
-            found = np.array([1 / _oblique(part.sparse(row)[on], to) for row in J])
+            found = np.array([1 / _projector_norm(part.sparse(row)[on], to) for row in J])
         else:
             if (part, rows := on.tobytes()) not in known:
                 known[part, rows] = _basis(part.dense(J)[..., on, :])
@@ -210,7 +210,7 @@ def _basis(rows: np.ndarray) -> np.ndarray:
     return np.linalg.qr(np.swapaxes(rows, -1, -2))[0]
 
 
-def _oblique(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> float:
+def _projector_norm(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> float:
     """Norm of the projector D'(J D')^-1 J along the surface of J: one over the cosine of the angle (Szyld 2006)."""
     try:
         inner = scipy.sparse.linalg.splu((J @ D.T).tocsc())
@@ -229,7 +229,7 @@ def _oblique(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> float:
     return float(scipy.sparse.linalg.svds(projector, 1, **options)[0])
 
 
-def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
+def projection_cosine(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
     """How well the coordinates that were chosen for a segment still suit each of n positions: 1 is best, 0 is singular.
 
     Parameters
@@ -245,12 +245,12 @@ def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
     return _transversality(levels_of(problem.compiled), J, constants.D / sizes)
 
 
-def fits(problem: Problem, at: Point) -> bool:
+def partition_is_valid(problem: Problem, at: Point) -> bool:
     """Whether the coordinates that follow from others still suit a point, as well as the best choice might but for a factor."""
-    return bool(worn(problem, Rows.of(at), at.constants)[0] >= least_cosine(problem))
+    return bool(projection_cosine(problem, Rows.of(at), at.constants)[0] >= least_cosine(problem))
 
 
-def suits(problem: Problem, at: Point) -> bool:
+def projection_is_valid(problem: Problem, at: Point) -> bool:
     """Whether the projection of a point is one that moves, and suits the point."""
     if not at.constants.moves:
         return False

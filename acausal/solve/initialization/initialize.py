@@ -17,7 +17,7 @@ from acausal.solve.diagnosis.conflicts import contradiction
 from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.block_solve import by_blocks
 from acausal.solve.initialization.complete_by_rank import closed_guess, ranked
-from acausal.solve.initialization.coordinate_partitioning import choose_projection, independent
+from acausal.solve.initialization.coordinate_partitioning import choose_projection, independent_states
 from acausal.solve.initialization.equilibrium import rest, rotation
 from acausal.solve.initialization.fixed_states import flag_matters, giving, lasting, with_direct
 from acausal.solve.initialization.newton import InitialSystem, algebraic, follow, newton, reach
@@ -50,14 +50,14 @@ class Start:
     loops: Problem | None = None
 
     @cached_property
-    def independent(self) -> tuple[str, ...]:
+    def independent_states(self) -> tuple[str, ...]:
         """Names of the states that do not follow from others; none where there are no loops."""
-        return independent(self.loops, self.point) if self.loops else ()
+        return independent_states(self.loops, self.point) if self.loops else ()
 
     def found(self, compiled: CompiledModel) -> AtStart:
         """Return what a report says about it."""
         dropped = (k for k, row in enumerate(compiled.constraints.closures) if row in self.redundancy.dropped)
-        return AtStart(tuple(dropped), self.redundancy.singular, self.independent)
+        return AtStart(tuple(dropped), self.redundancy.singular, self.independent_states)
 
 
 def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) -> Start:

@@ -11,7 +11,7 @@ import scipy
 
 from acausal.policy import POLICY
 from acausal.solve.initialization.assembly import close, polished, tighten
-from acausal.solve.initialization.coordinate_partitioning import choose_projection, fits
+from acausal.solve.initialization.coordinate_partitioning import choose_projection, partition_is_valid
 from acausal.solve.initialization.equilibrium_test import kinematic, meters
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.initialization.rank import factored
@@ -183,7 +183,7 @@ class Linearizer:
                 closed, left = close(self.problem, at, held)
         if left > POLICY.loops.closed:
             closed = tighten(self.problem, replace(at, constants=self.guess.constants))
-        if closed.constants.moves or not fits(self.problem, closed):
+        if closed.constants.moves or not partition_is_valid(self.problem, closed):
             closed = replace(closed, constants=choose_projection(self.problem, closed))
         return self.problem.completed(closed)
 

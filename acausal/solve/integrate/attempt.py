@@ -11,7 +11,13 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.once import making
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.initialization.coordinate_partitioning import choose_projection, chosen, least_cosine, suits, worn
+from acausal.solve.initialization.coordinate_partitioning import (
+    choose_projection,
+    least_cosine,
+    partitioned,
+    projection_cosine,
+    projection_is_valid,
+)
 from acausal.solve.initialization.independent_constraints import reselected
 from acausal.solve.initialization.minimum_norm_reactions import shared
 from acausal.solve.initialization.newton import algebraic
@@ -137,12 +143,12 @@ class Integrator:
 
     def _suited(self, at: Point, moves: bool) -> Point:
         """Return the point with a projection that suits it: its own, if that moves along."""
-        fits = (at.constants is self._fresh and at.time == self.span[0]) or suits(self.problem, at)
+        fits = (at.constants is self._fresh and at.time == self.span[0]) or projection_is_valid(self.problem, at)
         if fits and moves:
             return at
         self.trace.choices += 1
         return replace(
-            at, constants=chosen(self.problem, at) if fits else choose_projection(self.problem, at, moves=moves)
+            at, constants=partitioned(self.problem, at) if fits else choose_projection(self.problem, at, moves=moves)
         )
 
     def is_worn(self, rows: Rows, constants: Constants) -> bool:
@@ -151,7 +157,7 @@ class Integrator:
             return False
         looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
         some = rows[spread(len(rows), looks)]
-        return bool(np.any(worn(self.problem, some, constants) < least_cosine(self.problem)))
+        return bool(np.any(projection_cosine(self.problem, some, constants) < least_cosine(self.problem)))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Leg | Refusal:
         """Integrate in the current way, carefully where that fails; without works, and through jumps."""

@@ -11,11 +11,11 @@ import acausal as ac
 from acausal.solve.initialization.assembly import close, levels, tighten
 from acausal.solve.initialization.coordinate_partitioning import (
     _select,
-    _spared,
+    _stiffness_weights,
     _transversality,
     choose_projection,
-    independent,
-    worn,
+    independent_states,
+    projection_cosine,
 )
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.tangent_space import tangent
@@ -85,7 +85,7 @@ def test_the_coordinate_that_the_constraint_holds_best_follows(angle, follows):
     rate = {"x": "u", "y": "v"}[follows]
     assert directions(constants) == {name: float(name in (follows, rate)) for name in "xyuv"}
     moving = choose_projection(problem(), at, spare=False, moves=True)
-    assert set(independent(problem(), replace(at, constants=moving))) == set("xyuv") - {follows, rate}
+    assert set(independent_states(problem(), replace(at, constants=moving))) == set("xyuv") - {follows, rate}
     assert constants.moves is False
 
 
@@ -109,12 +109,16 @@ def test_transversality_is_the_cosine_of_the_largest_angle(angle):
 
 def test_stiff_coordinates_are_spared_by_the_lowest_threshold_that_serves():
     J, stiffness = np.array([1.0, 1.0]), np.array([1e8, 0.0])
-    np.testing.assert_allclose(_spared(whole(1, 2), J, stiffness, 1.0), [1 / (1 + 1e7), 1])
-    np.testing.assert_allclose(_spared(whole(1, 2), np.array([1.0, 1e-3]), stiffness, 1.0), [1 / (1 + 1e3), 1])
-    np.testing.assert_allclose(_spared(whole(1, 2), np.array([1.0, 0.0]), stiffness, 1.0), [1 / (1 + 1e7), 1])
+    np.testing.assert_allclose(_stiffness_weights(whole(1, 2), J, stiffness, 1.0), [1 / (1 + 1e7), 1])
+    np.testing.assert_allclose(
+        _stiffness_weights(whole(1, 2), np.array([1.0, 1e-3]), stiffness, 1.0), [1 / (1 + 1e3), 1]
+    )
+    np.testing.assert_allclose(
+        _stiffness_weights(whole(1, 2), np.array([1.0, 0.0]), stiffness, 1.0), [1 / (1 + 1e7), 1]
+    )
     # In a run of 1e200 s: the square of the feedback is too small a number.
     with np.errstate(over="ignore"):  # as in a run
-        np.testing.assert_array_equal(_spared(whole(1, 2), J, stiffness, 1e-199), [0, 1])
+        np.testing.assert_array_equal(_stiffness_weights(whole(1, 2), J, stiffness, 1e-199), [0, 1])
 
 
 def test_two_constraints_take_a_coordinate_each_that_they_hold_well():
@@ -129,7 +133,7 @@ def test_a_choice_wears_out_as_its_coordinate_loses_its_hold():
     angle = np.array([np.pi / 2, 1.0, 0.3, 0.05, 0.0, -0.4])
     x = np.array([point(np.cos(a), np.sin(a)).x for a in angle])
     np.testing.assert_allclose(
-        worn(problem(), Rows.within(np.zeros(6), x, np.zeros((6, 0)), constants.vector), constants),
+        projection_cosine(problem(), Rows.within(np.zeros(6), x, np.zeros((6, 0)), constants.vector), constants),
         np.abs(np.sin(angle)),
         atol=1e-15,
     )

@@ -7,7 +7,7 @@ import pytest
 import scipy
 
 from acausal.solve.initialization import coordinate_partitioning
-from acausal.solve.initialization.coordinate_partitioning import _oblique, _select, _transversality
+from acausal.solve.initialization.coordinate_partitioning import _projector_norm, _select, _transversality
 from acausal.solve.initialization.rank import columns_by_pivots, is_regular, least_norm, null_space, outside, rank
 from acausal.solve.initialization.sparse_rank import complement, gram, least_singular_value, unit_rows
 from acausal.solve.sparse_blocks import parts_of
@@ -78,7 +78,7 @@ def test_the_oblique_projector_tells_the_angle():
     J, D = band(0), band(1)
     bases = [np.linalg.qr(A.toarray().T)[0] for A in (J, D)]
     cosine = np.linalg.svd(bases[0].T @ bases[1], compute_uv=False)[-1]
-    assert 1 / _oblique(J, D) == pytest.approx(cosine, rel=1e-3)
+    assert 1 / _projector_norm(J, D) == pytest.approx(cosine, rel=1e-3)
 
 
 def test_large_parts_are_chosen_and_judged_as_small_ones(monkeypatch):
