@@ -103,7 +103,7 @@ class Content:
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),
-            "nominal": floats([self.span, self.tolerance, *self.nominal, *self.problem.reaches, *self._follows]),
+            "nominal": floats([self.span, self.tolerance, *self.nominal, *self.problem.loop_scales, *self._follows]),
             "natural": floats(self.nominal[self.compiled.nx :]),
         }
 

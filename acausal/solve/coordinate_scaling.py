@@ -16,13 +16,13 @@ LOOPS, RANKS = POLICY.loops, POLICY.ranks
 
 
 @once
-def levels_of(compiled: CompiledModel) -> list[Part]:
+def constraint_blocks(compiled: CompiledModel) -> list[Part]:
     """Constraints of one level that share coordinates, with the entries of D."""
     c = compiled.constraints
     return parts(c.entries[0], c.entries[1], (c.size, compiled.nx))
 
 
-def reaches(compiled: CompiledModel, p: np.ndarray) -> np.ndarray:
+def loop_scales(compiled: CompiledModel, p: np.ndarray) -> np.ndarray:
     """Return the sizes of the states where they close loops, shape (nx,): nominal values, or others.
 
     Coordinates of one unit without a declared nominal value that share constraints have one size, with which they change
@@ -115,7 +115,7 @@ def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, 
     known = [declared or unit in unknown for unit, declared in compiled.sizes]
     labels = np.array(["" if known[k] else f"of {unit}" for k, (unit, _) in enumerate(compiled.sizes)])
     plain = {f"of {unit}" for k, (unit, _) in enumerate(compiled.sizes) if not known[k] and _is_plain(parse(unit))}
-    for part in levels_of(compiled):
+    for part in constraint_blocks(compiled):
         own, kinds = labels[c.entries[1][part.entries]], c.kinds[c.entries[0][part.entries]]
         shared = np.array([len(set(own[kinds == kind].tolist())) > 1 for kind in kinds], dtype=bool)
         names = sorted(set(own[shared].tolist()), key=lambda name: (name != "", name not in plain, name))

@@ -16,7 +16,7 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
 from acausal.core import Settler, library
 from acausal.policy import POLICY
-from acausal.solve.coordinate_scaling import reaches
+from acausal.solve.coordinate_scaling import loop_scales
 from acausal.solve.point import Point, Rows
 
 
@@ -57,9 +57,9 @@ class Problem:
         return self.compiled.nominal
 
     @property
-    def reaches(self) -> np.ndarray:
+    def loop_scales(self) -> np.ndarray:
         """Sizes of the states where they close loops."""
-        return reaches(self.compiled, self.p)
+        return loop_scales(self.compiled, self.p)
 
     @property
     def rates(self) -> list[tuple[int, int]]:
@@ -87,18 +87,18 @@ class Problem:
         """Return the residuals of the constraints and their Jacobian by the states."""
         return self.compiled.constraints(at.x, self.p, at.time, at.constants.vector)
 
-    def gradients(self, at: Point) -> scipy.sparse.csc_matrix:
+    def scaled_gradients(self, at: Point) -> scipy.sparse.csc_matrix:
         """Return the Jacobian of the constraints by the states over their sizes.
 
         Rows are 0 that are nearly so beside others of their equation, or beside what cancels in them.
         """
-        J = by_columns(self.constraints(at)[1], self.reaches)
+        J = by_columns(self.constraints(at)[1], self.loop_scales)
         length = lengths(J)
-        largest = self._largest_alike(length)
+        largest = self._largest_of_equation(length)
         faint = (largest > 0) & (largest <= POLICY.ranks.faint * max(1.0, np.max(length, initial=0.0)))
         if faint.any():
             entries = with_entries(self.compiled.constraints.pattern, self._terms(at)[1])
-            adds_up = self._largest_alike(lengths(by_columns(entries, self.reaches)))
+            adds_up = self._largest_of_equation(lengths(by_columns(entries, self.loop_scales)))
             largest = np.where(faint, np.maximum(largest, adds_up), largest)
         J.data[(length <= POLICY.ranks.rank * largest)[J.indices]] = 0.0
         return J
@@ -107,7 +107,9 @@ class Problem:
         """Size of what adds up in the residuals of the constraints, and in the entries of their Jacobian."""
         return self.compiled.constraints.terms(at.x, self.p, at.time, at.constants.vector)
 
-    def held_in_sizes(self, x: np.ndarray, times: np.ndarray, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def scaled_jacobians(
+        self, x: np.ndarray, times: np.ndarray, constants: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Return Jacobians of the constraints for states in their sizes, at n points, and the sizes.
 
         Parameters
@@ -124,37 +126,37 @@ class Problem:
         sizes : array, shape (entries,)
         """
         c = self.compiled.constraints
-        sizes = self.reaches[c.entries[1]]
+        sizes = self.loop_scales[c.entries[1]]
         return c.held(x, self.p, times, constants) * sizes, sizes
 
-    def gaps(self, at: Point) -> np.ndarray:
+    def closure_errors(self, at: Point) -> np.ndarray:
         """Return the residuals of the constraints, over the change that the sizes of the states make in them.
 
         Entries of one equation have one such size: at a dead centre one of them has no gradient. What no state changes, as
         of parts that are welded to a loop, counts beside what adds up in it.
         """
-        return self.constraints(at)[0] / self.sizes(at)
+        return self.constraints(at)[0] / self.residual_scales(at)
 
-    def sizes(self, at: Point) -> np.ndarray:
+    def residual_scales(self, at: Point) -> np.ndarray:
         """Return the change that the sizes of the states make in each residual of the constraints, see `gaps`."""
-        return self.sized(at)[0]
+        return self.residual_scales_and_rigid(at)[0]
 
-    def sized(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+    def residual_scales_and_rigid(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Return the sizes of the residuals, and which of them no state changes by more than rounding."""
-        own, c = lengths(self.gradients(at)), self.compiled.constraints
+        own, c = lengths(self.scaled_gradients(at)), self.compiled.constraints
         forces = [row for k, rows in enumerate(c.rows) if k not in c.of_loops for row in rows]
         if forces:
             # Where a force has no direction its gradient is very large, but not beside it.
-            away = np.random.default_rng(0).standard_normal(self.nx) * self.reaches
-            beside = self.gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
+            away = np.random.default_rng(0).standard_normal(self.nx) * self.loop_scales
+            beside = self.scaled_gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
             own[forces] = np.minimum(own[forces], np.nan_to_num(lengths(beside)))
-        sizes = self._largest_alike(own)
+        sizes = self._largest_of_equation(own)
         rigid = sizes == 0
         if np.any(self.constraints(at)[0][rigid]):
-            sizes = np.where(rigid, self._largest_alike(self._terms(at)[0]), sizes)
+            sizes = np.where(rigid, self._largest_of_equation(self._terms(at)[0]), sizes)
         return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0), rigid
 
-    def _largest_alike(self, own: np.ndarray) -> np.ndarray:
+    def _largest_of_equation(self, own: np.ndarray) -> np.ndarray:
         """Largest of the values of the constraints' residuals, among those of the same equation, for each residual."""
         kinds = self.compiled.constraints.kinds
         most = np.zeros(len(kinds))
@@ -172,15 +174,15 @@ class Problem:
 
         None also for what is not integrated.
         """
-        settler, z = self._settled(at)
+        settler, z = self._solved_by_core(at)
         return replace(at, z=z) if settler and z is not None and settler.evaluations <= most else None
 
     def least_pivot(self, at: Point) -> float:
         """Return the least pivot of the algebraic equations over its terms; 0 where the core does not solve them."""
-        settler, z = self._settled(at)
+        settler, z = self._solved_by_core(at)
         return settler.least if settler and z is not None else 0.0
 
-    def _settled(self, at: Point) -> tuple[Settler | None, np.ndarray | None]:
+    def _solved_by_core(self, at: Point) -> tuple[Settler | None, np.ndarray | None]:
         """Solve for all algebraic unknowns by the core, where it has the equations; None where that does not converge."""
         if not (self.runs and library() and self.nz):
             return None, None
@@ -208,13 +210,13 @@ class Problem:
         tape = core_motion(self.compiled)[1]
         given = self.p, rows.constants, rows.x, rows.z, rows.times[:, None]
         rates = np.zeros(tape.sizes[-1])
-        if self._settler:  # its equations are linear: one step is enough
-            rates, solved = self._settler(*given, rates, size=np.ones(len(rates)), enough=np.inf)
+        if self._rate_solver:  # its equations are linear: one step is enough
+            rates, solved = self._rate_solver(*given, rates, size=np.ones(len(rates)), enough=np.inf)
             rates[~solved] = np.nan
         return tape.rows(*given, rates)
 
     @cached_property
-    def _settler(self) -> Settler | None:
+    def _rate_solver(self) -> Settler | None:
         square = core_motion(self.compiled)[0]
         return Settler(square) if square else None
 

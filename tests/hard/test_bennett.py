@@ -168,7 +168,7 @@ def test_what_is_kept_is_independent() -> None:
     closures = len(at.constants.closures)
     chosen = [np.isin(np.arange(closures), kept).astype(float) for kept in combinations(range(closures), 3)]
     found = [held(problem, at, replace(at.constants, closures=kept)).conditioning[0] for kept in chosen]
-    J = problem.gradients(at)[compiled.constraints.lowest].toarray().reshape(2, 3, -1)
+    J = problem.scaled_gradients(at)[compiled.constraints.lowest].toarray().reshape(2, 3, -1)
     J = (J / np.linalg.norm(J, axis=2).max(axis=1)[:, None, None]).reshape(6, -1)
     kept = [np.linalg.svd(J[on > 0], compute_uv=False)[-1] for on in chosen]
     np.testing.assert_allclose(np.array(found) * np.linalg.svd(J, compute_uv=False)[2], kept, atol=1e-7)
@@ -191,7 +191,7 @@ def test_a_large_mechanism_keeps_what_is_independent() -> None:
     at = start(problem, 0.0, 1.0, "fixed").point
     right = at.constants.closures
     assert np.sum(right) > 100
-    J = problem.gradients(at)[compiled.constraints.lowest].toarray()
+    J = problem.scaled_gradients(at)[compiled.constraints.lowest].toarray()
     J /= np.linalg.norm(J.reshape(-1, 3, J.shape[1]), axis=2).max(axis=1).repeat(3)[:, None]
     shares = np.linalg.lstsq(J[right > 0].T, J[right == 0].T, rcond=None)[0]
     found = held(problem, at, at.constants).conditioning[0]

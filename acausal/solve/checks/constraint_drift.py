@@ -55,7 +55,7 @@ def _broken(integrator: Integrator, rows: Rows, place: int, watched: list[int]) 
     problem, c = integrator.problem, integrator.compiled.constraints
     found, _ = integrator.consistent(rows[place : place + 1])
     at = problem.projected(problem.point(found, 0))
-    off, sizes = np.abs(problem.constraints(at)[0]), problem.sizes(at)
+    off, sizes = np.abs(problem.constraints(at)[0]), problem.residual_scales(at)
     lowest = {k: c.lowest[c.closures[k]] for k in watched if at.constants.closures[k] == 0}
     return [(k, float(off[row])) for k, row in lowest.items() if not off[row] <= POLICY.loops.opened * sizes[row]]
 

@@ -37,7 +37,7 @@ def opened(consistent: Consistent, rows: Rows) -> list[str]:
         row = c.lowest[c.closures[k]]
         place = int(np.argmax(apart[:, row]))
         widest, size = points[place], float(apart[place, row])
-        if size > POLICY.loops.opened * problem.sizes(widest)[row]:
+        if size > POLICY.loops.opened * problem.residual_scales(widest)[row]:
             loop = flat.loops.closures[k].loop
             wide[loop] = max(wide.get(loop, (0.0, 0.0)), (size, widest.time))
     return [

@@ -39,8 +39,8 @@ def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
         # What time drives moves although nothing is free.
         if not 0 < len(part.columns) <= len(kept) or _driven(problem.compiled)[c.lowest[kept]].any():
             continue
-        entries = problem.gradients(at).data[held.entries]
-        rows = part.dense(entries)[np.isin(part.rows, kept)] / problem.sizes(at)[c.lowest[kept], None]
+        entries = problem.scaled_gradients(at).data[held.entries]
+        rows = part.dense(entries)[np.isin(part.rows, kept)] / problem.residual_scales(at)[c.lowest[kept], None]
         least = float(np.linalg.svd(rows, compute_uv=False)[len(part.columns) - 1])
         own = (flat.loops.closures[k].loop for k, row in enumerate(c.closures) if row in kept and row in c.of_loops)
         loop = next(own, None)

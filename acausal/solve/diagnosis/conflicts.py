@@ -50,7 +50,7 @@ def _opponents(problem: Problem, system: InitialSystem, at: Point, wrong: list[i
     direct = dict(system.direct)
     conditions = [k for k in (*direct, *system.rows.tolist()) if k >= nz]
     guesses = np.eye(nx + nz)[np.setdiff1d(system.known, list(direct.values()))]
-    closed = np.pad(problem.gradients(at).toarray(), ((0, 0), (0, nz)))
+    closed = np.pad(problem.scaled_gradients(at).toarray(), ((0, 0), (0, nz)))
     basis = scaled(np.vstack([J[conditions], J[:nz], closed, guesses]))
     weights = scipy.linalg.lstsq(basis.T, scaled(J[wrong]).T, check_finite=False)[0][: len(conditions)]
     heavy = np.max(np.abs(weights), axis=1, initial=0.0)

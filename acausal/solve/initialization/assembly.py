@@ -69,7 +69,7 @@ def close(
         Largest residual, over its size.
     """
     at = _with_value(problem, at, held)
-    mismatch, sizes = 0.0, problem.reaches if sizes is None else sizes
+    mismatch, sizes = 0.0, problem.loop_scales if sizes is None else sizes
     is_lowest = problem.compiled.constraints.is_lowest
     for depth, (rows, columns) in enumerate(levels(problem.compiled)):
         if positions and not any(is_lowest[rows]):
@@ -81,7 +81,7 @@ def close(
             at, left = found
         else:
             at, left = _solve(problem, at, rows, free, depth > 0, sizes)
-        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.reaches)):
+        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.loop_scales)):
             # Near a singular position rates are known only as well as the root of the positions.
             at, left = _solve(problem, at, rows, columns, depth > 0, sizes)
         mismatch = max(mismatch, left)
@@ -96,7 +96,7 @@ def _with_value(problem: Problem, at: Point, held: np.ndarray) -> Point:
         return at
     free = np.setdiff1d(problem.compiled.constraints.states, held)
     for k, size in enumerate(LOOPS.attempts):
-        start = at.x[free] + size * problem.reaches[free] * np.random.default_rng(k).standard_normal(len(free))
+        start = at.x[free] + size * problem.loop_scales[free] * np.random.default_rng(k).standard_normal(len(free))
         tried = _with(at, free, start)
         if np.all(np.isfinite(problem.constraints(tried)[0])):
             return tried
@@ -112,7 +112,7 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
     """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
-    c, (size, rigid) = problem.compiled.constraints, problem.sized(at)
+    c, (size, rigid) = problem.compiled.constraints, problem.residual_scales_and_rigid(at)
     part, of_entry = part_of(c.pattern, rows, free), np.where(rigid, np.inf, size)[c.pattern.indices]
     matrix = part.sparse if _are_many(rows) else part.dense
 
@@ -196,7 +196,7 @@ def polished(problem: Problem, at: Point, held: np.ndarray) -> Point | None:
     tight = at
     for rows, columns in levels(problem.compiled):
         free = np.setdiff1d(columns, held)
-        found, left = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.reaches[free])
+        found, left = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.loop_scales[free])
         if not left <= LOOPS.closed:
             return None
         tight = _with(tight, free, found)
@@ -219,7 +219,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
     """Raise InitializationError with the mismatch of every loop that does not close; `jump` tells where states jumped."""
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
-    value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
+    value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.closure_errors(at))
     lines, directions = list[str](), dict[str, None]()
     for number, loop in enumerate(flat.loops.cuts):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]

@@ -90,7 +90,7 @@ def ranked(
         # A condition can lack influence at one position without lacking it around.
         shake = POLICY.ranks.shake * np.random.default_rng(0).standard_normal(len(free))
         moved = at.x.copy()
-        moved[free] += shake * problem.reaches[free]
+        moved[free] += shake * problem.loop_scales[free]
         M, C = _reduced(problem, replace(at, x=moved), free, rows, flag)
         used, surplus = _independent(M, C)
     determined = (M.shape[0] if is_regular(M) else rank(M.toarray())) + len(used)
@@ -117,7 +117,7 @@ def _reduced(
 ) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
     """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
     nx, nz = problem.nx, problem.nz
-    M, size = problem.gradients(at)[:, free], problem.reaches[free]
+    M, size = problem.scaled_gradients(at)[:, free], problem.loop_scales[free]
     if not rows.size:
         return M, np.zeros((0, len(free)))
     J = problem.local(at, flag).jacobian.tocsc()
@@ -166,7 +166,7 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
     moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
     coordinates, rates = pairs[moving].T
-    sizes = problem.reaches
+    sizes = problem.loop_scales
     if not np.any(np.abs(x[rates]) > LOOPS.rest * sizes[rates]):
         raise InitializationError(
             f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops "

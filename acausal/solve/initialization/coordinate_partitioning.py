@@ -12,7 +12,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.compiler.once import once
 from acausal.policy import POLICY
-from acausal.solve.coordinate_scaling import levels_of
+from acausal.solve.coordinate_scaling import constraint_blocks
 from acausal.solve.initialization.rank import columns_by_pivots, pivots
 from acausal.solve.initialization.tangent_space import Elimination
 from acausal.solve.point import Point, Rows
@@ -49,7 +49,7 @@ def partitioned(problem: Problem, at: Point) -> Constants:
     c = problem.compiled.constraints
     J, sizes = _held(problem, Rows.of(at), at.constants)
     D = J[0] * at.constants.D / sizes**2
-    selection = _select(levels_of(problem.compiled), D, c.counting(at.constants.closures))
+    selection = _select(constraint_blocks(problem.compiled), D, c.counting(at.constants.closures))
     return replace(at.constants, moves=False, D=selection * sizes)
 
 
@@ -61,7 +61,7 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
     J, sizes = _held(problem, Rows.of(at), at.constants)
     J = J[0] * on[rows]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
-    weights = _stiffness_weights(levels_of(problem.compiled), J, stiffness[columns], problem.feedback)
+    weights = _stiffness_weights(constraint_blocks(problem.compiled), J, stiffness[columns], problem.feedback)
     length = np.sqrt(np.bincount(rows, (J * weights) ** 2, minlength=c.size))
     length = np.where(length > 0, length, 1.0)[rows]
     return replace(at.constants, moves=True, D=on[rows] * weights * sizes**2 / length)
@@ -82,7 +82,7 @@ def closing_scales(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
     held : array of int
         States that are given, which do not move.
     """
-    c, sizes = problem.compiled.constraints, problem.reaches.copy()
+    c, sizes = problem.compiled.constraints, problem.loop_scales.copy()
     rows, columns = c.entries
     J = _held(problem, Rows.of(at), at.constants)[0][0] * c.counting(at.constants.closures)[rows]
     J[np.isin(columns, held)] = 0.0
@@ -91,7 +91,7 @@ def closing_scales(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
     for threshold in largest * 10.0 ** -np.arange(LOOPS.decades, -1, -1):
         soft = J * (stiffness <= threshold)
         closes = np.array_equal(np.unique(rows[soft != 0]), np.unique(rows[J != 0]))
-        if closes and _transversality(levels_of(problem.compiled), J[None], soft)[0] >= LOOPS.worn:
+        if closes and _transversality(constraint_blocks(problem.compiled), J[None], soft)[0] >= LOOPS.worn:
             sizes[columns[stiffness > LOOPS.stiffer * threshold]] *= LOOPS.stiff
             break
     return sizes
@@ -242,7 +242,7 @@ def projection_cosine(problem: Problem, rows: Rows, constants: Constants) -> np.
         Those of the segment.
     """
     J, sizes = _held(problem, rows, constants)
-    return _transversality(levels_of(problem.compiled), J, constants.D / sizes)
+    return _transversality(constraint_blocks(problem.compiled), J, constants.D / sizes)
 
 
 def partition_is_valid(problem: Problem, at: Point) -> bool:
@@ -256,12 +256,12 @@ def projection_is_valid(problem: Problem, at: Point) -> bool:
         return False
     J, sizes = _held(problem, Rows.of(at), at.constants)
     D = J[0] * at.constants.D / sizes**2
-    return bool(_transversality(levels_of(problem.compiled), J, D)[0] >= least_cosine(problem))
+    return bool(_transversality(constraint_blocks(problem.compiled), J, D)[0] >= least_cosine(problem))
 
 
 def _held(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
     """Constraint Jacobians for states in their sizes, and these, as `Constraints.entries` has them."""
-    return problem.held_in_sizes(rows.x, rows.times, constants.vector)
+    return problem.scaled_jacobians(rows.x, rows.times, constants.vector)
 
 
 def least_cosine(problem: Problem) -> float:

@@ -58,7 +58,9 @@ def at_rest(problem: Problem, at: Point) -> bool:
 
 def loops_closed(problem: Problem, at: Point) -> bool:
     """Whether all constraints hold."""
-    return not problem.compiled.constraints.size or bool(np.max(np.abs(problem.gaps(at))) <= NEWTON.consistent)
+    return not problem.compiled.constraints.size or bool(
+        np.max(np.abs(problem.closure_errors(at))) <= NEWTON.consistent
+    )
 
 
 def equations_hold(problem: Problem, at: Point) -> bool:

@@ -16,7 +16,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.compiler.once import once
 from acausal.policy import POLICY
-from acausal.solve.coordinate_scaling import levels_of
+from acausal.solve.coordinate_scaling import constraint_blocks
 from acausal.solve.initialization.rank import pivots
 from acausal.solve.initialization.sparse_rank import gram, least_singular_value
 from acausal.solve.point import Point
@@ -55,14 +55,14 @@ class IndependentConstraints:
         """Those of which some are kept, with which rows at their lowest levels are, and which are not."""
         c = self.problem.compiled.constraints
         counts = c.counting(self.constants.closures)
-        found = [(part, c.is_lowest[part.rows], counts[part.rows]) for part in levels_of(self.problem.compiled)]
+        found = [(part, c.is_lowest[part.rows], counts[part.rows]) for part in constraint_blocks(self.problem.compiled)]
         return [(part, low & on, low & ~on) for part, low, on in found if (low & on).any()]
 
     @cached_property
     def J(self) -> np.ndarray:
         """Their Jacobian, over the size of each equation: in a flat position a row may vanish by itself."""
         c = self.problem.compiled.constraints
-        held, _ = self.problem.held_in_sizes(self.x, self.times, self.constants.vector)
+        held, _ = self.problem.scaled_jacobians(self.x, self.times, self.constants.vector)
         rows = c.entries[0]
         lengths = np.zeros((len(held), c.size))
         np.add.at(lengths.T, rows, held.T**2)

@@ -25,7 +25,7 @@ def shared(problem: Problem, at: Point) -> Constants:
         return at.constants
     counts = c.counting(at.constants.closures)
     rows = np.union1d(c.lowest[counts[c.lowest]], own)
-    J = problem.gradients(at)[rows].toarray() * problem.nominal[: problem.nx]
+    J = problem.scaled_gradients(at)[rows].toarray() * problem.nominal[: problem.nx]
     size = np.linalg.norm(J, axis=1)
     left = np.linalg.svd(scaled(J))[0][:, -spare:] / np.where(size > 0, size, 1.0)[:, None]
     basis = np.linalg.qr(left[np.searchsorted(rows, own)])[0]

@@ -34,7 +34,7 @@ class Redundancy:
 def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
     held, apart = lowest(problem.compiled)
-    entries = problem.gradients(at).data[held.entries]
+    entries = problem.scaled_gradients(at).data[held.entries]
     doubtful = [part for part in apart if not is_regular(part.sparse(entries), RANKS.nearly)]
     if not doubtful:
         return Redundancy()
@@ -48,7 +48,7 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
         if not mismatch < RANKS.moved:
             stuck = True
             continue
-        entries = problem.gradients(moved).data[held.entries]
+        entries = problem.scaled_gradients(moved).data[held.entries]
         for k, part in enumerate(doubtful):
             there = scaled(part.dense(entries))
             if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
@@ -92,7 +92,7 @@ def is_singular(problem: Problem, at: Point) -> bool:
     if not c.size:
         return False
     held = c.lowest[c.counting(at.constants.closures)[c.lowest]]
-    J = problem.gradients(at)[held].tocsc()
+    J = problem.scaled_gradients(at)[held].tocsc()
     return not all(is_regular(part.sparse(J.data), RANKS.beside) for part in parts_of(J))
 
 
@@ -103,5 +103,5 @@ def _aside(problem: Problem, at: Point, doubtful: list[Part], here: list[np.ndar
         null = null_space(J)
         if len(null):
             direction = null.T @ random.standard_normal(len(null))
-            x[part.columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.reaches[part.columns]
+            x[part.columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.loop_scales[part.columns]
     return None if np.array_equal(x, at.x) else replace(at, x=x)

@@ -190,7 +190,9 @@ def _vanishes(problem: Problem, at: Point, rates: np.ndarray) -> bool:
 def _jacobians(own: Linearizer, at: Point) -> tuple[np.ndarray, np.ndarray]:
     """Jacobians of the rates by the states, in nominal values, and of the constraints; and what adds up in each rate."""
     here = own.linearized(at)
-    gradients = own.problem.gradients(at).toarray() if own.problem.compiled.constraints.size else np.zeros((0, own.nx))
+    gradients = (
+        own.problem.scaled_gradients(at).toarray() if own.problem.compiled.constraints.size else np.zeros((0, own.nx))
+    )
     J = np.vstack([here.A * own.scale / own.scale[:, None], gradients])
     most = np.concatenate([here.adds_up(own.scale) / own.scale, np.linalg.norm(gradients, axis=1)])
     return J, np.where(most > 0, most, 1.0)

@@ -32,7 +32,7 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     """
     if not problem.compiled.constraints.size:
         return np.eye(problem.nx), np.arange(problem.nx)
-    J, size = problem.gradients(at), problem.reaches
+    J, size = problem.scaled_gradients(at), problem.loop_scales
     null = null_space(J)
     rate_of = dict(problem.rates)
     # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
