@@ -200,7 +200,7 @@ class Problem:
         z[self.compiled.constraints.multipliers] = 0.0
         return replace(at, z=z)
 
-    def watched(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
+    def indicators(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
         """Return the watched excesses and their time derivatives, one row for each time."""
         found = self._motion(rows) if library() else self.each(self.compiled.guards.along, rows)
         n = found.shape[1] // 2

@@ -59,7 +59,7 @@ class Instants:
 
     def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Watched excesses and their time derivatives."""
-        value, rate = self.problem.watched(Rows.of(at))
+        value, rate = self.problem.indicators(Rows.of(at))
         return value[0], rate[0]
 
     def holds(self, at: Point, crossed: np.ndarray) -> np.ndarray:

@@ -171,7 +171,7 @@ class Locator:
         """Rows of the segment of a point, consistent as far as the watched conditions need it, on the side of that point."""
         problem = self.integrator.problem
         rows, _ = self.integrator.consistent(rows, self.instants.guards.needs)
-        value, rate = problem.watched(rows)
+        value, rate = problem.indicators(rows)
         side = np.where(at.mode, -1.0, 1.0)
         return Samples(at, rows, value * side, rate * side)
 

@@ -162,7 +162,7 @@ def _doubtful(problem: Problem, at: Point) -> np.ndarray:
         return watched
     here = at.x, at.z, problem.p, at.time, at.constants.vector
     scale = np.nan_to_num(guards.scale(*here, problem.nominal)[0])
-    near = np.abs(problem.watched(Rows.of(at))[0][0]) <= POLICY.switches.rounding * np.where(scale > 0, scale, 1.0)
+    near = np.abs(problem.indicators(Rows.of(at))[0][0]) <= POLICY.switches.rounding * np.where(scale > 0, scale, 1.0)
     return watched[near & (watched < guards.n_switches)]
 
 
@@ -174,7 +174,7 @@ def _initial_mode(problem: Problem, at: Point, doubtful: np.ndarray, head: np.nd
     guards: Any = problem.compiled.guards
     if not guards.watched:
         return np.zeros(0, dtype=bool)
-    value = problem.watched(Rows.of(at))[0][0]
+    value = problem.indicators(Rows.of(at))[0][0]
     if text := undecided(problem, at, np.array(guards.watched)[np.isnan(value)].tolist()):
         raise InitializationError(f"at t = {at.time:.6g} s {text}")
     own = [guards.guards[k] for k in guards.watched]

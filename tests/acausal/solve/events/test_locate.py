@@ -30,7 +30,7 @@ class Motion:
 
     def __init__(self, *functions, span=10.0) -> None:
         self.functions, self.span, self.trials, self.looks = functions, span, 0, 0
-        self.problem, self.compiled, self.tolerance = SimpleNamespace(watched=self.watched), SimpleNamespace(nx=1), 1e-8
+        self.problem, self.compiled, self.tolerance = SimpleNamespace(indicators=self.indicators), SimpleNamespace(nx=1), 1e-8
         self.settings = SimpleNamespace(nominal=np.ones(1))
         self.consistent = self
 
@@ -44,7 +44,7 @@ class Motion:
         self.trials += 1
         return leg(times[1:])
 
-    def watched(self, rows):
+    def indicators(self, rows):
         self.looks += 1
         found = [f(rows.x[:, 0]) for f in self.functions]
         return tuple(np.column_stack(column) for column in zip(*found, strict=True))
