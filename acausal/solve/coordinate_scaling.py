@@ -9,17 +9,17 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.constraints import Constraints
 from acausal.compiler.once import latest, once
 from acausal.policy import POLICY
-from acausal.solve.sparse_blocks import Part, parts
+from acausal.solve.sparse_blocks import Block, connected_blocks
 from acausal.units import BASES, Dimension, parse
 
 LOOPS, RANKS = POLICY.loops, POLICY.ranks
 
 
 @once
-def constraint_blocks(compiled: CompiledModel) -> list[Part]:
+def constraint_blocks(compiled: CompiledModel) -> list[Block]:
     """Constraints of one level that share coordinates, with the entries of D."""
     c = compiled.constraints
-    return parts(c.entries[0], c.entries[1], (c.size, compiled.nx))
+    return connected_blocks(c.entries[0], c.entries[1], (c.size, compiled.nx))
 
 
 def loop_scales(compiled: CompiledModel, p: np.ndarray) -> np.ndarray:
@@ -107,7 +107,7 @@ def _terms(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, constants: Con
 
 @once
 def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, np.ndarray]]]]:
-    """States of each part by their units, with their entries in equations that several units share.
+    """States of each block by their units, with their entries in equations that several units share.
 
     First, and told, those whose size is known, if any are, else those whose unit holds no length or mass, as angles.
     """
@@ -115,13 +115,13 @@ def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, 
     known = [declared or unit in unknown for unit, declared in compiled.sizes]
     labels = np.array(["" if known[k] else f"of {unit}" for k, (unit, _) in enumerate(compiled.sizes)])
     plain = {f"of {unit}" for k, (unit, _) in enumerate(compiled.sizes) if not known[k] and _is_plain(parse(unit))}
-    for part in constraint_blocks(compiled):
-        own, kinds = labels[c.entries[1][part.entries]], c.kinds[c.entries[0][part.entries]]
+    for block in constraint_blocks(compiled):
+        own, kinds = labels[c.entries[1][block.entries]], c.kinds[c.entries[0][block.entries]]
         shared = np.array([len(set(own[kinds == kind].tolist())) > 1 for kind in kinds], dtype=bool)
         names = sorted(set(own[shared].tolist()), key=lambda name: (name != "", name not in plain, name))
         if names:
-            entries = [part.entries[shared & (own == name)] for name in names]
-            states = [part.columns[labels[part.columns] == name] for name in names]
+            entries = [block.entries[shared & (own == name)] for name in names]
+            states = [block.columns[labels[block.columns] == name] for name in names]
             first = names[0] == "" or names[0] in plain
             found.append((first, list(zip(states, entries, strict=True))))
     return found

@@ -14,7 +14,7 @@ Places = np.ndarray | list[int]
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class Block:
     """Rows and columns of a matrix, and which of its entries are in them: the same for all matrices of one sparsity.
 
     Attributes
@@ -22,9 +22,9 @@ class Part:
     rows, columns : arrays of int
         Where they are in the whole.
     entries : array of int
-        Which entries of the whole are in the part, column by column.
+        Which entries of the whole are in the block, column by column.
     places : array of int, shape (2, n)
-        Row and column of each of them, in the part.
+        Row and column of each of them, in the block.
     """
 
     rows: np.ndarray
@@ -33,8 +33,8 @@ class Part:
     places: np.ndarray
 
     @classmethod
-    def placed(cls, rows: np.ndarray, columns: np.ndarray, entries: np.ndarray, places: np.ndarray) -> Part:
-        """Return a part from its entries in any order."""
+    def placed(cls, rows: np.ndarray, columns: np.ndarray, entries: np.ndarray, places: np.ndarray) -> Block:
+        """Return a block from its entries in any order."""
         order = np.lexsort(places)
         return cls(rows, columns, entries[order], places[:, order].astype(np.int32, order="C"))
 
@@ -45,27 +45,27 @@ class Part:
         return scipy.sparse.csc_matrix((np.zeros(len(self.entries)), self.places[0], starts), shape=shape)
 
     def dense(self, values: np.ndarray) -> np.ndarray:
-        """Return the part, shape (..., m, n), from the entries of the whole, shape (..., k)."""
+        """Return the block, shape (..., m, n), from the entries of the whole, shape (..., k)."""
         full = np.zeros((*values.shape[:-1], len(self.rows), len(self.columns)))
         full[..., self.places[0], self.places[1]] = values[..., self.entries]
         return full
 
     def sparse(self, values: np.ndarray) -> scipy.sparse.csc_matrix:
-        """Return the part from the entries of the whole, shape (k,)."""
+        """Return the block from the entries of the whole, shape (k,)."""
         return with_entries(self._pattern, values[self.entries])
 
 
-def part_of(J: scipy.sparse.csc_matrix, rows: Places, columns: Places) -> Part:
-    """Return the part in some rows and columns of a matrix, in the order in which they are given."""
+def block_of(J: scipy.sparse.csc_matrix, rows: Places, columns: Places) -> Block:
+    """Return the block in some rows and columns of a matrix, in the order in which they are given."""
     row, column = (np.full(n, -1, dtype=np.int32) for n in J.shape)
     row[rows], column[columns] = np.arange(len(rows)), np.arange(len(columns))
     places = np.array([row[J.indices], np.repeat(column, np.diff(J.indptr))])
     entries = np.flatnonzero(np.all(places >= 0, axis=0))
-    return Part.placed(np.asarray(rows), np.asarray(columns), entries, places[:, entries])
+    return Block.placed(np.asarray(rows), np.asarray(columns), entries, places[:, entries])
 
 
-def parts(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> list[Part]:
-    """Return the connected parts of a matrix, from the places of its entries; a row without any is a part of its own."""
+def connected_blocks(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> list[Block]:
+    """Return the connected parts of a matrix, from the places of its entries; a row without any is a block of its own."""
     m, n = shape
     graph = scipy.sparse.coo_matrix((np.ones(len(rows)), (rows, m + columns)), shape=(m + n, m + n))
     count, label = scipy.sparse.csgraph.connected_components(graph, directed=False)
@@ -76,13 +76,13 @@ def parts(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> list
         if of_rows.size:
             local[0, of_rows], local[1, of_columns] = np.arange(len(of_rows)), np.arange(len(of_columns))
             places = np.array([local[0, rows[entries]], local[1, columns[entries]]])
-            found.append(Part.placed(of_rows, of_columns, entries, places))
+            found.append(Block.placed(of_rows, of_columns, entries, places))
     return found
 
 
-def parts_of(J: scipy.sparse.csc_matrix) -> list[Part]:
+def connected_blocks_of(J: scipy.sparse.csc_matrix) -> list[Block]:
     """Return the parts of a matrix; its entries are their values in its own order."""
-    return parts(J.indices, np.repeat(np.arange(J.shape[1]), np.diff(J.indptr)), J.shape)
+    return connected_blocks(J.indices, np.repeat(np.arange(J.shape[1]), np.diff(J.indptr)), J.shape)
 
 
 def _grouped(label: np.ndarray, count: int) -> list[np.ndarray]:

@@ -34,14 +34,14 @@ def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
         return []
     held, apart = lowest(problem.compiled)
     found = list[str]()
-    for part in apart:
-        kept = np.setdiff1d(part.rows, dropped)
+    for block in apart:
+        kept = np.setdiff1d(block.rows, dropped)
         # What time drives moves although nothing is free.
-        if not 0 < len(part.columns) <= len(kept) or _driven(problem.compiled)[c.lowest[kept]].any():
+        if not 0 < len(block.columns) <= len(kept) or _driven(problem.compiled)[c.lowest[kept]].any():
             continue
         entries = problem.scaled_gradients(at).data[held.entries]
-        rows = part.dense(entries)[np.isin(part.rows, kept)] / problem.residual_scales(at)[c.lowest[kept], None]
-        least = float(np.linalg.svd(rows, compute_uv=False)[len(part.columns) - 1])
+        rows = block.dense(entries)[np.isin(block.rows, kept)] / problem.residual_scales(at)[c.lowest[kept], None]
+        least = float(np.linalg.svd(rows, compute_uv=False)[len(block.columns) - 1])
         own = (flat.loops.closures[k].loop for k, row in enumerate(c.closures) if row in kept and row in c.of_loops)
         loop = next(own, None)
         if RANKS.rank < least <= RANKS.locked and loop is not None:

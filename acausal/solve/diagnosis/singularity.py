@@ -21,7 +21,7 @@ from acausal.solve.diagnosis.probe import ROUNDING, There, beside, is_rounding, 
 from acausal.solve.diagnosis.start_values import another_guess
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.sparse_blocks import Part, part_of
+from acausal.solve.sparse_blocks import Block, block_of
 
 CAUSES = POLICY.causes
 ANOTHER = "Replace one of them by an equation that says something new."
@@ -171,6 +171,6 @@ def _pivots_hold(J: scipy.sparse.csc_matrix) -> bool:
 
 
 @once
-def _inner(compiled: CompiledModel) -> Part:
+def _inner(compiled: CompiledModel) -> Block:
     unknowns = np.arange(compiled.nx, compiled.nx + compiled.nz)
-    return part_of(compiled.pattern, unknowns, unknowns)
+    return block_of(compiled.pattern, unknowns, unknowns)

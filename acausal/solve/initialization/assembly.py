@@ -18,7 +18,7 @@ from acausal.solve.initialization.levenberg_marquardt import Matrix, Residuals, 
 from acausal.solve.initialization.rank import least_norm
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.sparse_blocks import part_of
+from acausal.solve.sparse_blocks import block_of
 
 LOOPS = POLICY.loops
 
@@ -113,8 +113,8 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
     """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
     c, (size, rigid) = problem.compiled.constraints, problem.residual_scales_and_rigid(at)
-    part, of_entry = part_of(c.pattern, rows, free), np.where(rigid, np.inf, size)[c.pattern.indices]
-    matrix = part.sparse if _are_many(rows) else part.dense
+    block, of_entry = block_of(c.pattern, rows, free), np.where(rigid, np.inf, size)[c.pattern.indices]
+    matrix = block.sparse if _are_many(rows) else block.dense
 
     def evaluate(u: np.ndarray) -> tuple[np.ndarray, Matrix]:
         value, entries = c.values(_with(at, free, u).x, problem.p, at.time, at.constants.vector)

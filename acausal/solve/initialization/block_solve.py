@@ -24,17 +24,17 @@ def by_blocks(problem: Problem, system: InitialSystem, at: Point) -> Point | Non
     at : Point
         Guesses.
     """
-    part = system.block(problem.compiled.pattern, problem.nx)
-    rows: list[list[int]] = [[] for _ in part.rows]
-    for row, column in part.places.T.tolist():
+    whole = system.block(problem.compiled.pattern, problem.nx)
+    rows: list[list[int]] = [[] for _ in whole.rows]
+    for row, column in whole.places.T.tolist():
         rows[row].append(column)
-    matched = maximum_matching(rows, len(part.columns)).variable_of
-    if len(part.rows) != len(part.columns) or -1 in matched:
+    matched = maximum_matching(rows, len(whole.columns)).variable_of
+    if len(whole.rows) != len(whole.columns) or -1 in matched:
         return None
     every, none = np.arange(problem.nx + problem.nz), np.empty(0, int)
     try:
         for block in block_triangular(rows, [(variable, row) for row, variable in enumerate(matched)]):
-            known = np.setdiff1d(every, part.columns[list(block.variables)])
+            known = np.setdiff1d(every, whole.columns[list(block.variables)])
             at = newton(problem, InitialSystem(system.rows[list(block.equations)], none, known), at, 1.0)
         return newton(problem, system, at, 1.0)
     except InitializationError:

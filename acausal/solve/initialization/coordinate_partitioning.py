@@ -17,12 +17,12 @@ from acausal.solve.initialization.rank import columns_by_pivots, pivots
 from acausal.solve.initialization.tangent_space import Elimination
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.sparse_blocks import Part
+from acausal.solve.sparse_blocks import Block
 
 LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
 
-# Of each part, and of those of its rows that are given as bytes.
-Spaces = dict[tuple[Part, bytes], np.ndarray]
+# Of each block, and of those of its rows that are given as bytes.
+Spaces = dict[tuple[Block, bytes], np.ndarray]
 
 
 def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
@@ -132,7 +132,7 @@ def _unprojected(compiled: CompiledModel) -> Elimination:
     return Elimination.of(compiled.pattern, rates, coordinates, equations, unknowns)
 
 
-def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
+def _select(levels: list[Block], D: np.ndarray, on: np.ndarray) -> np.ndarray:
     """Entries of unit vectors in place of D: one coordinate for each constraint of a level, by pivots."""
     selection, follows = np.zeros(len(D)), np.full(len(on), -1)
     rows, columns, sizes = (np.concatenate(k) for k in zip(*(_candidates(p, D, on) for p in levels), strict=True))
@@ -144,30 +144,30 @@ def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
     weight = scipy.sparse.csr_matrix((weights, (row, column)))
     pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
     follows[row_of[pairs[0]]] = column_of[pairs[1]]
-    for part in levels:
-        selection[part.entries] = follows[part.rows[part.places[0]]] == part.columns[part.places[1]]
+    for block in levels:
+        selection[block.entries] = follows[block.rows[block.places[0]]] == block.columns[block.places[1]]
     return selection
 
 
-def _candidates(part: Part, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Constraints of a part, coordinates that are as many and hold them best, and the sizes of their entries."""
-    active = np.flatnonzero(on[part.rows])[: len(part.columns)]
+def _candidates(block: Block, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Constraints of a block, coordinates that are as many and hold them best, and the sizes of their entries."""
+    active = np.flatnonzero(on[block.rows])[: len(block.columns)]
     if len(active) > SMALL:
-        block = part.sparse(D)[active]
-        order = columns_by_pivots(block)
-        size = abs(block[:, order]).tocoo()
+        matrix = block.sparse(D)[active]
+        order = columns_by_pivots(matrix)
+        size = abs(matrix[:, order]).tocoo()
         size.eliminate_zeros()
         row, column, sizes = size.row, size.col, size.data
     else:
-        block = part.dense(D)[active]
-        order = pivots(block)[: len(active)] if active.size else np.zeros(0, dtype=int)
+        matrix = block.dense(D)[active]
+        order = pivots(matrix)[: len(active)] if active.size else np.zeros(0, dtype=int)
         row, column = (k.ravel() for k in np.indices((len(active), len(order))))
         # Singular ones have a matching too.
-        sizes = np.maximum(np.abs(block[row, order[column]]), np.finfo(float).tiny)
-    return part.rows[active[row]], part.columns[order[column]], sizes
+        sizes = np.maximum(np.abs(matrix[row, order[column]]), np.finfo(float).tiny)
+    return block.rows[active[row]], block.columns[order[column]], sizes
 
 
-def _stiffness_weights(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
+def _stiffness_weights(levels: list[Block], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
     """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
 
     Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
@@ -181,24 +181,24 @@ def _stiffness_weights(levels: list[Part], J: np.ndarray, stiffness: np.ndarray,
     return np.ones(len(stiffness))
 
 
-def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray, known: Spaces | None = None) -> np.ndarray:
+def _transversality(levels: list[Block], J: np.ndarray, D: np.ndarray, known: Spaces | None = None) -> np.ndarray:
     """Cosine of the largest angle between the row spaces of J, shape (n, entries), and D: 1 is best, 0 is singular.
 
     `known` keeps the row spaces of J for the next D.
     """
     least, known = np.ones(len(J)), {} if known is None else known
-    for part in levels:
-        chosen = part.dense(D)
+    for block in levels:
+        chosen = block.dense(D)
         on = np.linalg.norm(chosen, axis=1) > 0
         if not on.any():
             continue
         if len(on) > SMALL:
-            to = part.sparse(D)[on]
-            found = np.array([1 / _projector_norm(part.sparse(row)[on], to) for row in J])
+            to = block.sparse(D)[on]
+            found = np.array([1 / _projector_norm(block.sparse(row)[on], to) for row in J])
         else:
-            if (part, rows := on.tobytes()) not in known:
-                known[part, rows] = _basis(part.dense(J)[..., on, :])
-            found = np.linalg.svd(np.swapaxes(known[part, rows], -1, -2) @ _basis(chosen[on]), compute_uv=False)[
+            if (block, rows := on.tobytes()) not in known:
+                known[block, rows] = _basis(block.dense(J)[..., on, :])
+            found = np.linalg.svd(np.swapaxes(known[block, rows], -1, -2) @ _basis(chosen[on]), compute_uv=False)[
                 ..., -1
             ]
         least = np.fmin(least, found)

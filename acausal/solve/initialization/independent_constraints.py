@@ -21,14 +21,14 @@ from acausal.solve.initialization.rank import pivots
 from acausal.solve.initialization.sparse_rank import gram, least_singular_value
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.sparse_blocks import Part
+from acausal.solve.sparse_blocks import Block
 
 RANKS = POLICY.ranks
 
 
 @dataclass(frozen=True, eq=False)
 class IndependentConstraints:
-    """Constraints of closed loops at n points, part by part.
+    """Constraints of closed loops at n points, block by block.
 
     Parameters
     ----------
@@ -51,12 +51,14 @@ class IndependentConstraints:
         return cls(problem, np.array([at.time]), at.x[None], at.constants)
 
     @cached_property
-    def parts(self) -> list[tuple[Part, np.ndarray, np.ndarray]]:
+    def blocks(self) -> list[tuple[Block, np.ndarray, np.ndarray]]:
         """Those of which some are kept, with which rows at their lowest levels are, and which are not."""
         c = self.problem.compiled.constraints
         counts = c.counting(self.constants.closures)
-        found = [(part, c.is_lowest[part.rows], counts[part.rows]) for part in constraint_blocks(self.problem.compiled)]
-        return [(part, low & on, low & ~on) for part, low, on in found if (low & on).any()]
+        found = [
+            (block, c.is_lowest[block.rows], counts[block.rows]) for block in constraint_blocks(self.problem.compiled)
+        ]
+        return [(block, low & on, low & ~on) for block, low, on in found if (low & on).any()]
 
     @cached_property
     def J(self) -> np.ndarray:
@@ -72,12 +74,12 @@ class IndependentConstraints:
 
     @cached_property
     def smallest_singular_values(self) -> np.ndarray:
-        """Smallest singular value of each part, 0 in a flat position, shape (m, n).
+        """Smallest singular value of each block, 0 in a flat position, shape (m, n).
 
         Of constraints that follow from one another it is that of all, of as many as are kept: the least that is not 0
         elsewhere; in large mechanisms that of the kept ones.
         """
-        found = [_smallest(part, self.J, on, spare) for part, on, spare in self.parts]
+        found = [_smallest(block, self.J, on, spare) for block, on, spare in self.blocks]
         return np.array(found).reshape(len(found), len(self.times))
 
     @cached_property
@@ -88,14 +90,14 @@ class IndependentConstraints:
         others are X times the kept ones, 1 / sqrt(1 + |X|^2).
         """
         found = np.ones(len(self.times))
-        for k, (part, on, spare) in enumerate(self.parts):
+        for k, (block, on, spare) in enumerate(self.blocks):
             if not spare.any():
                 continue
             if np.sum(on) > RANKS.small:
-                own = np.array([_spanning(part, self.J[place], on, spare) for place in range(len(found))])
+                own = np.array([_spanning(block, self.J[place], on, spare) for place in range(len(found))])
             else:
                 of_all = np.maximum(self.smallest_singular_values[k], np.finfo(float).tiny)
-                own = _smallest(part, self.J, on, np.zeros_like(spare)) / of_all
+                own = _smallest(block, self.J, on, np.zeros_like(spare)) / of_all
             found = np.fmin(found, own)
         return found
 
@@ -124,13 +126,13 @@ def selection(held: IndependentConstraints) -> Constants:
     """Return constants with which as many constraints are kept at one point as before, those that hold the others best."""
     compiled, constants = held.problem.compiled, held.constants
     closures = constants.closures.copy()
-    for part, on, spare in held.parts:
+    for block, on, spare in held.blocks:
         if not spare.any():
             continue
         rows = np.flatnonzero(on | spare)
-        own = closure_of(compiled)[part.rows[rows]]
+        own = closure_of(compiled)[block.rows[rows]]
         weight = np.where(own >= 0, 1.0, RANKS.kept)
-        order = pivots((weight[:, None] * part.dense(held.J[0])[rows]).T)
+        order = pivots((weight[:, None] * block.dense(held.J[0])[rows]).T)
         closures[own[own >= 0]] = 1.0
         left = own[order[int(np.sum(on)) :]]
         closures[left[left >= 0]] = 0.0
@@ -153,20 +155,20 @@ def closure_of(compiled: CompiledModel) -> np.ndarray:
     return found
 
 
-def _smallest(part: Part, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -> np.ndarray:
-    """Least of as many singular values of rows of a part as are kept, to 1e-8: roots of eigenvalues of A A', or of A' A."""
+def _smallest(block: Block, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -> np.ndarray:
+    """Least of as many singular values of rows of a block as are kept, to 1e-8: roots of eigenvalues of A A', or of A' A."""
     n = int(np.sum(on))
     if n > RANKS.small:
-        return np.array([least_singular_value(part.sparse(row)[on]) for row in held])
-    A = part.dense(held)[:, on | spare]
+        return np.array([least_singular_value(block.sparse(row)[on]) for row in held])
+    A = block.dense(held)[:, on | spare]
     turned = A.transpose(0, 2, 1)
     square = A @ turned if A.shape[1] <= A.shape[2] else turned @ A
     return np.sqrt(np.maximum(np.linalg.eigvalsh(square)[:, max(square.shape[1] - n, 0)], 0.0))
 
 
-def _spanning(part: Part, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -> float:
+def _spanning(block: Block, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -> float:
     """Of many rows: 1 / sqrt(1 + |X|^2), where the others are X times the kept ones; 0 where these are not independent."""
-    rows = part.sparse(held)
+    rows = block.sparse(held)
     inverse = gram(rows[on], RANKS.rank)
     if inverse is None:
         return 0.0

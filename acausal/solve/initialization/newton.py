@@ -18,7 +18,7 @@ from acausal.solve.diagnosis.initialization import lost_text, worst_lines
 from acausal.solve.initialization.rank import factored
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.sparse_blocks import Part, part_of
+from acausal.solve.sparse_blocks import Block, block_of
 
 NEWTON = POLICY.newton
 Solver = Callable[[np.ndarray], np.ndarray]
@@ -52,18 +52,18 @@ class InitialSystem:
     surplus: np.ndarray
     known: np.ndarray
     direct: tuple[tuple[int, int], ...] = ()
-    _blocks: list[Part] = field(default_factory=list, repr=False)
+    _blocks: list[Block] = field(default_factory=list, repr=False)
 
     @cached_property
     def given(self) -> np.ndarray:
         """The rows of `direct`, and their states, shape (2, n)."""
         return np.array(self.direct, dtype=int).reshape(-1, 2).T
 
-    def block(self, J: scipy.sparse.csc_matrix, first: int) -> Part:
-        """Its part of the Jacobian of a model, the first `first` of whose rows are derivatives of states."""
+    def block(self, J: scipy.sparse.csc_matrix, first: int) -> Block:
+        """Its block of the Jacobian of a model, the first `first` of whose rows are derivatives of states."""
         if not self._blocks:
             free = np.setdiff1d(np.arange(J.shape[1]), self.known)
-            self._blocks.append(part_of(J, first + self.rows, free))
+            self._blocks.append(block_of(J, first + self.rows, free))
         return self._blocks[0]
 
 
@@ -86,8 +86,8 @@ def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
 def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offset: np.ndarray | float = 0.0) -> Point:
     """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
     nx, y = problem.nx, at.y
-    part = system.block(problem.compiled.pattern, nx)
-    rows, free = part.rows, part.columns
+    block = system.block(problem.compiled.pattern, nx)
+    rows, free = block.rows, block.columns
     if not free.size:
         return at
     scale = problem.nominal[free]
@@ -106,7 +106,7 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         local = problem.local(at.with_y(y), flag)
         # Where the block is singular, the step of least norm, if there is one, leads on.
         order = "NATURAL" if free[0] == nx else "COLAMD"
-        solve = factored(part.sparse(local.entries), scale, POLICY.ranks.least_norm, order)
+        solve = factored(block.sparse(local.entries), scale, POLICY.ranks.least_norm, order)
         step = -solve(value)
         # A correction as small as rounding makes it has nothing to reduce: it ends the iteration.
         if not _change(step, y[free], scale) <= NEWTON.converged:
@@ -165,7 +165,7 @@ def algebraic(problem: Problem, at: Point) -> Point:
 
 
 def _by_parts(problem: Problem, at: Point) -> Point | None:
-    """Solve for them part after part; None where that does not solve the equations.
+    """Solve for them block after block; None where that does not solve the equations.
 
     At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
     each of them alone. In one matrix that is d^4, which is less than rounding.

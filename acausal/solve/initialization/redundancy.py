@@ -18,7 +18,7 @@ from acausal.solve.initialization.independent_constraints import may_be_redundan
 from acausal.solve.initialization.rank import is_regular, null_space, pivots, rank, scaled
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.sparse_blocks import Part, part_of, parts, parts_of
+from acausal.solve.sparse_blocks import Block, block_of, connected_blocks, connected_blocks_of
 
 RANKS = POLICY.ranks
 
@@ -35,10 +35,10 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
     held, apart = lowest(problem.compiled)
     entries = problem.scaled_gradients(at).data[held.entries]
-    doubtful = [part for part in apart if not is_regular(part.sparse(entries), RANKS.nearly)]
+    doubtful = [block for block in apart if not is_regular(block.sparse(entries), RANKS.nearly)]
     if not doubtful:
         return Redundancy()
-    here = [scaled(part.dense(entries)) for part in doubtful]
+    here = [scaled(block.dense(entries)) for block in doubtful]
     best, singular, stuck = list(here), False, False
     for seed in range(RANKS.motions):
         aside = _aside(problem, at, doubtful, here, seed)
@@ -49,24 +49,24 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
             stuck = True
             continue
         entries = problem.scaled_gradients(moved).data[held.entries]
-        for k, part in enumerate(doubtful):
-            there = scaled(part.dense(entries))
+        for k, block in enumerate(doubtful):
+            there = scaled(block.dense(entries))
             if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
                 best[k], singular = there, True
     if stuck and not singular:
         # What seems to be free is held by what the Jacobian does not show, such as the length of a straight inextensible beam.
         return Redundancy((), True)
     weight = _weight(problem.compiled)
-    dropped = [row for part, rows in zip(doubtful, best, strict=True) for row in _surplus(part, rows, weight)]
+    dropped = [row for block, rows in zip(doubtful, best, strict=True) for row in _surplus(block, rows, weight)]
     return Redundancy(tuple(sorted(dropped)), singular)
 
 
 @once
-def lowest(compiled: CompiledModel) -> tuple[Part, list[Part]]:
+def lowest(compiled: CompiledModel) -> tuple[Block, list[Block]]:
     """Return the constraints at their lowest levels, and the parts of these that share no coordinates."""
     c = compiled.constraints
-    found = part_of(c.pattern, c.lowest, np.arange(compiled.nx))
-    return found, parts(found.places[0], found.places[1], (len(c.lowest), compiled.nx))
+    found = block_of(c.pattern, c.lowest, np.arange(compiled.nx))
+    return found, connected_blocks(found.places[0], found.places[1], (len(c.lowest), compiled.nx))
 
 
 def _weight(compiled: CompiledModel) -> np.ndarray:
@@ -77,13 +77,13 @@ def _weight(compiled: CompiledModel) -> np.ndarray:
     return weight
 
 
-def _surplus(part: Part, rows: np.ndarray, weight: np.ndarray) -> list[int]:
-    """Constraints of a part that follow from others of it."""
+def _surplus(block: Block, rows: np.ndarray, weight: np.ndarray) -> list[int]:
+    """Constraints of a block that follow from others of it."""
     independent = rank(rows)
     if independent == len(rows):
         return []
-    order = pivots((weight[part.rows, None] * rows).T) if rows.size else np.arange(len(rows))
-    return part.rows[order[independent:]].tolist()
+    order = pivots((weight[block.rows, None] * rows).T) if rows.size else np.arange(len(rows))
+    return block.rows[order[independent:]].tolist()
 
 
 def is_singular(problem: Problem, at: Point) -> bool:
@@ -93,15 +93,17 @@ def is_singular(problem: Problem, at: Point) -> bool:
         return False
     held = c.lowest[c.counting(at.constants.closures)[c.lowest]]
     J = problem.scaled_gradients(at)[held].tocsc()
-    return not all(is_regular(part.sparse(J.data), RANKS.beside) for part in parts_of(J))
+    return not all(is_regular(block.sparse(J.data), RANKS.beside) for block in connected_blocks_of(J))
 
 
-def _aside(problem: Problem, at: Point, doubtful: list[Part], here: list[np.ndarray], seed: int) -> Point | None:
+def _aside(problem: Problem, at: Point, doubtful: list[Block], here: list[np.ndarray], seed: int) -> Point | None:
     """Return a point near by, along what the Jacobian leaves free in each of some parts; None where that is nothing."""
     x, random = at.x.copy(), np.random.default_rng(seed)
-    for part, J in zip(doubtful, here, strict=True):
+    for block, J in zip(doubtful, here, strict=True):
         null = null_space(J)
         if len(null):
             direction = null.T @ random.standard_normal(len(null))
-            x[part.columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.loop_scales[part.columns]
+            x[block.columns] += (
+                RANKS.motion * direction / np.linalg.norm(direction) * problem.loop_scales[block.columns]
+            )
     return None if np.array_equal(x, at.x) else replace(at, x=x)

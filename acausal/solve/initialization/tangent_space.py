@@ -14,7 +14,7 @@ from acausal.policy import POLICY
 from acausal.solve.initialization.rank import null_space, pivots
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.sparse_blocks import Part, Places, part_of
+from acausal.solve.sparse_blocks import Block, Places, block_of
 
 # Columns in one call of a sparse solver.
 AT_ONCE = 64
@@ -54,19 +54,19 @@ class Elimination:
 
     Attributes
     ----------
-    own, through, equations, inner : Part
+    own, through, equations, inner : Block
         The rows by the columns and by the algebraic unknowns, and the algebraic equations by both.
     """
 
-    own: Part
-    through: Part
-    equations: Part
-    inner: Part
+    own: Block
+    through: Block
+    equations: Block
+    inner: Block
 
     @classmethod
     def of(cls, J: scipy.sparse.csc_matrix, rows: Places, columns: Places, alg: Places, z: Places) -> Elimination:
         """Return that for all matrices of one sparsity, from one of them; `alg` are equations, `z` algebraic unknowns."""
-        return cls(part_of(J, rows, columns), part_of(J, rows, z), part_of(J, alg, columns), part_of(J, alg, z))
+        return cls(block_of(J, rows, columns), block_of(J, rows, z), block_of(J, alg, columns), block_of(J, alg, z))
 
     def matrix(self, entries: np.ndarray) -> np.ndarray:
         """Return J_rx - J_rz J_az^-1 J_ax, dense, from the entries of the Jacobian."""

@@ -21,7 +21,7 @@ from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.tangent_space import tangent
 from acausal.solve.integrate.order import eigenvalues_of
 from acausal.solve.point import Rows
-from acausal.solve.sparse_blocks import Part, parts
+from acausal.solve.sparse_blocks import Block, connected_blocks
 from tests.acausal.solve.circle import compiled, plane, point, problem
 
 FREE = np.empty(0, int)
@@ -31,9 +31,9 @@ def held(*names: str) -> np.ndarray:
     return np.array([compiled().states.index(name) for name in names])
 
 
-def whole(m: int, n: int) -> list[Part]:
+def whole(m: int, n: int) -> list[Block]:
     """A matrix without zeros."""
-    return parts(*np.indices((m, n)).reshape(2, -1), (m, n))
+    return connected_blocks(*np.indices((m, n)).reshape(2, -1), (m, n))
 
 
 def directions(constants) -> dict[str, float]:

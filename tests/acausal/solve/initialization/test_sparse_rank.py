@@ -10,7 +10,7 @@ from acausal.solve.initialization import coordinate_partitioning
 from acausal.solve.initialization.coordinate_partitioning import _projector_norm, _select, _transversality
 from acausal.solve.initialization.rank import columns_by_pivots, is_regular, least_norm, null_space, outside, rank
 from acausal.solve.initialization.sparse_rank import complement, gram, least_singular_value, unit_rows
-from acausal.solve.sparse_blocks import parts_of
+from acausal.solve.sparse_blocks import connected_blocks_of
 
 M, N = 150, 190
 
@@ -83,7 +83,7 @@ def test_the_oblique_projector_tells_the_angle():
 
 def test_large_parts_are_chosen_and_judged_as_small_ones(monkeypatch):
     J = unit_rows(band(m=30, n=31))
-    on, levels = np.ones(30, dtype=bool), parts_of(J)
+    on, levels = np.ones(30, dtype=bool), connected_blocks_of(J)
     dense = _select(levels, J.data, on)
     worst = _transversality(levels, J.data[None], dense)
     monkeypatch.setattr(coordinate_partitioning, "SMALL", 10)
