@@ -12,7 +12,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.follow import follow
 from acausal.solve.events.laws import Laws
 from acausal.solve.initialization.assembly import refuse_open_loops
-from acausal.solve.initialization.mode_search import MOST, Assignments
+from acausal.solve.initialization.mode_search import MOST_TRIED, ModeSearch
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.point import Point, Rows
@@ -106,11 +106,11 @@ class Instants:
             at = self._decided(at)
             constants = constants and replace(constants, discretes=at.constants.discretes)
         after = constants or at.constants
-        moved, tried = list[int](), Assignments(range(int(np.sum(self.is_switch))))
+        moved, tried = list[int](), ModeSearch(range(int(np.sum(self.is_switch))))
         none = np.zeros(len(self.watched), dtype=bool)
         due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.mode
         before = self.rates(at)[0] if due.any() else none
-        for _ in range(MOST):
+        for _ in range(MOST_TRIED):
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.mode
             flips = self.is_switch & (now != at.mode)
             fires += self.watched[~self.is_switch & now & ~at.mode].tolist()
@@ -130,10 +130,10 @@ class Instants:
                 due = due & (~forced | (np.abs(self.rates(at)[0] - before) <= self.width(at)))
         raise Cycling(moved)
 
-    def _wanted(self, tried: Assignments, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
+    def _wanted(self, tried: ModeSearch, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
         """Return what holds next: what follows from the values, and where that repeats itself, other switches."""
         current, found = (np.concatenate([one[self.is_switch], at.x, discretes]) for one in (at.mode, now))
-        following = tried.then(current, found)
+        following = tried.next(current, found)
         if following is None:
             raise Cycling(self.watched[self.is_switch][tried.changing].tolist())
         if not tried.cycle:

@@ -21,7 +21,7 @@ from acausal.solve.initialization.complete_by_rank import leave_singular
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.equilibrium import Restless
 from acausal.solve.initialization.initialize import INITIAL, TURNING, Start, first_guess, initialize
-from acausal.solve.initialization.mode_search import MOST, Assignments
+from acausal.solve.initialization.mode_search import MOST_TRIED, ModeSearch
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
@@ -65,14 +65,14 @@ def start(problem: Problem, time: float, later: float, initial: str, decides: bo
 
 def _started(problem: Problem, time: float, later: float, initial: str, decides: bool) -> Start:
     guards, p = problem.compiled.guards, problem.p
-    tried = Assignments([k for k in guards.watched if k < guards.n_switches])
+    tried = ModeSearch([k for k in guards.watched if k < guards.n_switches])
     decides = decides and initial not in ("steady", TURNING)  # an equilibrium may rest on friction
     head = guards.estimate(p, time, later)[0].copy()
     if text := no_numbers(problem, first_guess(problem, time, head)):
         raise InitializationError(text)
     head = _released(problem, head, decides)
-    head = tried.then(head, head)
-    while head is not None and tried.count <= MOST:
+    head = tried.next(head, head)
+    while head is not None and tried.count <= MOST_TRIED:
         try:
             begun = _begun(problem, time, head, initial)
         except InitializationError as error:
@@ -82,7 +82,7 @@ def _started(problem: Problem, time: float, later: float, initial: str, decides:
                 there = _other(_found(problem, error.at, head), head)
             if there is None and not tried.cycle:
                 raise
-            head = tried.then(head, head if there is None else there)
+            head = tried.next(head, head if there is None else there)
             continue
         at = begun.point
         new = _released(problem, _found(problem, at, head), decides)
@@ -92,7 +92,7 @@ def _started(problem: Problem, time: float, later: float, initial: str, decides:
         same[doubtful] = True
         if np.all(same):
             return replace(begun, point=replace(at, mode=_initial_mode(problem, at, doubtful, head)))
-        head = tried.then(head, np.where(same, head, new))
+        head = tried.next(head, np.where(same, head, new))
     raise InitializationError(_no_switches(problem.compiled, time, tried))
 
 
@@ -126,7 +126,7 @@ def _other(found: np.ndarray, head: np.ndarray) -> np.ndarray | None:
     return None if np.array_equal(found, head) else found
 
 
-def _no_switches(compiled: CompiledModel, time: float, tried: Assignments) -> str:
+def _no_switches(compiled: CompiledModel, time: float, tried: ModeSearch) -> str:
     """Say which conditions find no rest at the start."""
     places = places_text(compiled, tried.changing or tried.switches)
     if tried.cycle and len(places.splitlines()) == 1:

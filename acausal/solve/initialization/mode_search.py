@@ -1,4 +1,4 @@
-"""Assignments of switches, of which one is looked for that fits the values that follow from it."""
+"""Search for consistent modes: positions of all switches that agree with the values that they imply."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ import numpy as np
 
 from acausal.policy import POLICY
 
-MOST = POLICY.switches.rounds + POLICY.switches.tries
+MOST_TRIED = POLICY.switches.rounds + POLICY.switches.tries
 
 
-class Assignments:
-    """Each assignment follows from the values with the one before; where that repeats itself, others are tried.
+class ModeSearch:
+    """Fixed-point iteration on the mode, with principal pivoting and enumeration where it cycles.
 
-    A saturation in the feedback of an acceleration may be carried from one limit to the other and back although there is
-    one solution between them. Then conditions change one at a time, as in methods of principal pivots (Murty 1974), those
-    first that no longer hold: two limits are not passed at once. Where that repeats itself too, as in laws that are not
-    monotone, all ways are tried, the nearest first, and before others those in which nothing changes but what did.
+    A saturation in the feedback of an acceleration may alternate between both limits although a solution lies between
+    them. Then switches change one at a time, as in principal pivoting methods (Murty 1974), those that open before those
+    that close, so that no step passes two limits. Where this cycles too, as with laws that are not monotone, all modes are
+    enumerated by the number of switches that change, those of the cycle first.
 
     Parameters
     ----------
     switches : sequence of int
-        Which entries of an assignment are switches that are open; the others are whatever else may change with them.
+        Entries of a mode that are switches; the others are values that change with them, such as discrete variables.
 
     Attributes
     ----------
     cycle : list of arrays
-        Assignments that follow from each other without end; empty as long as none has come again.
+        Modes that follow from each other without end; empty until one recurs.
     """
 
     def __init__(self, switches: Sequence[int]) -> None:
@@ -39,39 +39,39 @@ class Assignments:
 
     @property
     def changing(self) -> list[int]:
-        """Switches that change in the cycle, or changed at last where there is none."""
+        """Switches that change in the cycle, or in the last step if there is none."""
         last = self.cycle or self._seen[-2:]
         return [k for k in self.switches if any(a[k] != last[0][k] for a in last)]
 
     @property
     def count(self) -> int:
-        """How many were tried."""
+        """Number of modes that were tried."""
         return len(self._seen)
 
-    def then(self, current: np.ndarray, found: np.ndarray) -> np.ndarray | None:
-        """Return what is tried next, None if nothing is left.
+    def next(self, current: np.ndarray, found: np.ndarray) -> np.ndarray | None:
+        """Return the next mode to try, None if none is left.
 
         Parameters
         ----------
         current, found : array
-            An assignment, and what follows from the values with it; the same where there are no values.
+            A mode, and the one that its values imply; the same mode if it has no values.
         """
         if not self.cycle and not self._is_new(found):
             first = next(k for k, a in enumerate(self._seen) if np.array_equal(a, found))
             self.cycle = self._seen[first:]
-            self._others = self._beside()
-        following = self._one_changed(current, found) if self.cycle else found
-        if not self._is_new(following):
-            following = next(filter(self._is_new, self._others), None)
-        if following is not None:
-            self._seen.append(following)
-        return following
+            self._others = self._enumerated()
+        mode = self._one_changed(current, found) if self.cycle else found
+        if not self._is_new(mode):
+            mode = next(filter(self._is_new, self._others), None)
+        if mode is not None:
+            self._seen.append(mode)
+        return mode
 
     def _is_new(self, one: np.ndarray) -> bool:
         return not any(np.array_equal(a, one) for a in self._seen)
 
     def _one_changed(self, current: np.ndarray, found: np.ndarray) -> np.ndarray:
-        """What was found, but for all switches that change except one."""
+        """Return `found` with only one of the changed switches changed."""
         wrong = [k for k in self.switches if current[k] != found[k]]
         one = found.copy()
         one[wrong] = current[wrong]
@@ -80,8 +80,8 @@ class Assignments:
             one[first] = found[first]
         return one
 
-    def _beside(self) -> Iterator[np.ndarray]:
-        """Assignments beside those of the cycle, the nearest ones first."""
+    def _enumerated(self) -> Iterator[np.ndarray]:
+        """Yield all modes, those that differ from modes of the cycle in the fewest switches first."""
         changing = self.changing
         order = changing + [k for k in self.switches if k not in changing]
         for n in range(1, len(order) + 1):

@@ -1,4 +1,4 @@
-"""Assignments of switches that repeat themselves: others are tried, the nearest ones first, and what has no fit is refused."""
+"""The search for consistent modes: where it cycles it enumerates modes, the nearest first, and fails when none is left."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, der, discrete, parameter, piecewise, reinit, time, variable, when
-from acausal.solve.initialization.mode_search import Assignments
+from acausal.solve.initialization.mode_search import ModeSearch
 from tests.acausal.solve.saturated import Row, Saturated, Stepped
 
 
 def then(tried, current, found):
-    following = tried.then(np.array(current, dtype=float), np.array(found, dtype=float))
+    following = tried.next(np.array(current, dtype=float), np.array(found, dtype=float))
     return None if following is None else following.tolist()
 
 
 def test_what_is_new_is_tried():
-    tried = Assignments([0, 1])
+    tried = ModeSearch([0, 1])
     assert then(tried, [0, 0, 7], [0, 0, 7]) == [0, 0, 7]
     assert then(tried, [0, 0, 7], [0, 1, 8]) == [0, 1, 8]
     assert (tried.cycle, tried.changing, tried.count) == ([], [1], 2)
 
 
 def cycling():
-    tried = Assignments([0, 1, 2])
+    tried = ModeSearch([0, 1, 2])
     for one in ([0, 0, 0, 7], [1, 0, 1, 7], [0, 1, 1, 7]):
         assert then(tried, one, one) == one
     return tried
@@ -45,7 +45,7 @@ def test_others_beside_a_cycle_are_tried_each_once_what_changes_first():
 
 
 def test_what_the_clock_decides_stays():
-    tried = Assignments([1])
+    tried = ModeSearch([1])
     assert then(tried, [1, 0], [1, 0]) == [1, 0]
     assert then(tried, [1, 0], [1, 1]) == [1, 1]
     assert then(tried, [1, 1], [1, 0]) is None
