@@ -25,7 +25,7 @@ SINGULAR = (
     "on which branch they continue, and forces have no value. Start 0.01 rad away from it, give a velocity with which "
     "they can continue, w=fixed(...) of a joint, or try another method=."
 )
-MENDS = {
+REMEDIES = {
     Kind.STEPS: "Something changes ever faster, or much faster than the outputs are apart: a force that becomes infinite "
     "(1/r^2 at r = 0), a value that grows without bound, or a very stiff or very light part. Check the equations above, or "
     "let the run end earlier, stop_time=...; a run that is only long needs more intervals=....",
@@ -74,20 +74,20 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
             [f"{head} {found.removeprefix(same)}"] if found.startswith(same) else [*lines, found[0].upper() + found[1:]]
         )
         return "\n".join(lines)
-    mend = MENDS.get(failure.kind, MENDS[None])
-    return "\n".join([*lines, *filter(None, [_fastest(problem, near)]), mend])
+    remedy = REMEDIES.get(failure.kind, REMEDIES[None])
+    return "\n".join([*lines, *filter(None, [_fastest(problem, near)]), remedy])
 
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
     """What fails in the equations at the last point, or a little beyond it along the motion; "" if nothing does."""
-    if found := without_value(problem, at, mend=LIMITS) or cause(problem, at) or infinite_slope(problem, at):
+    if found := without_value(problem, at, remedy=LIMITS) or cause(problem, at) or infinite_slope(problem, at):
         return found
     rates = problem.values(at)[: problem.nx].copy()
     slope = np.where(np.isfinite(rates), rates, 0.0)
     way = max(stopped - at.time, CAUSES.shortest * (stopped - begun))
     for part in CAUSES.beyond:
         later = replace(at, time=at.time + part * way, x=at.x + part * way * slope)
-        if found := without_value(problem, later, mend=LIMITS):
+        if found := without_value(problem, later, remedy=LIMITS):
             return found
         try:
             algebraic(problem, later)

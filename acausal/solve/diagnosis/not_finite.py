@@ -13,7 +13,7 @@ from acausal.compiler.whole import EQUATION, Row
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.probe import There, of_zeros, zeros_in
 from acausal.solve.diagnosis.singularity import dependent
-from acausal.solve.diagnosis.start_values import ELSEWHERE, mend_of
+from acausal.solve.diagnosis.start_values import ELSEWHERE, value_remedy
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars
@@ -37,10 +37,10 @@ WORDS = {
 
 
 def cause(
-    problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,), mend: str = ELSEWHERE
+    problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,), remedy: str = ELSEWHERE
 ) -> str:
     """Say why equations cannot be solved at a point, "" if nothing in the equations themselves tells."""
-    twice = "" if (missing := without_value(problem, at, flag, kinds, mend)) else dependent(problem, at, flag)
+    twice = "" if (missing := without_value(problem, at, flag, kinds, remedy)) else dependent(problem, at, flag)
     return missing or (f"at t = {at.time:.6g} s {twice}" if twice else "")
 
 
@@ -49,7 +49,7 @@ def without_value(
     at: Point,
     flag: float = 0.0,
     kinds: Iterable[str] = (EQUATION,),
-    mend: str = ELSEWHERE,
+    remedy: str = ELSEWHERE,
     timed: bool = True,
 ) -> str:
     """Say which equations have no value at a point, "" if all have one.
@@ -64,7 +64,7 @@ def without_value(
         1 while the initial system holds.
     kinds : iterable of str
         Rows that count, see `Row`.
-    mend : str
+    remedy : str
         What to do where no parameter is the cause; "" for what suits guesses and start values.
     timed : bool
         Whether to begin with the time.
@@ -78,9 +78,9 @@ def without_value(
     found = [(row, *operation(row, there)) for row in rows]
     lines = list(dict.fromkeys(_line(row, text) for row, text, _ in found))[: CAUSES.shown]
     what = "these equations have" if len(lines) > 1 else f"this {rows[0].kind} has"
-    own = remedy(problem, there, rows, found[0][2])
+    own = parameter_remedy(problem, there, rows, found[0][2])
     head = f"at t = {at.time:.6g} s " if timed else ""
-    return "\n".join([f"{head}{what} no value:", *lines, own or mend or mend_of(problem, found[0][2])])
+    return "\n".join([f"{head}{what} no value:", *lines, own or remedy or value_remedy(problem, found[0][2])])
 
 
 def infinite_slope(problem: Problem, at: Point) -> str:
@@ -108,7 +108,7 @@ def _broken(problem: Problem, there: There) -> str:
     return ""
 
 
-def remedy(problem: Problem, there: There, rows: list[Row], operand: Any) -> str:
+def parameter_remedy(problem: Problem, there: There, rows: list[Row], operand: Any) -> str:
     """Which parameter needs another value, "" if variables are the cause."""
     zeros = zeros_in(problem, rows, lambda places: not _fails(there.with_parameters(places, 1.0), rows))
     own = problem.compiled.reduced.flat.parameters

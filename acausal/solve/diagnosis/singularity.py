@@ -64,10 +64,10 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     inertia = NO_INERTIA if any(rates) else ""
     if len(inside) > 1 and _same(there):
         if not all(rates):  # forces among them
-            mend = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 else ANOTHER
+            remedy = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 else ANOTHER
         else:
-            mend = ANOTHER + inertia
-        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{mend}"
+            remedy = ANOTHER + inertia
+        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{remedy}"
     if len(inside) > 1:
         return (
             f"these equations do not determine {what}: near these values they depend on each other:\n{lines}\n"
@@ -76,8 +76,8 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
         )
     k = int(there.whole.solved[_heavy(right)[0]])
     here = f"cannot be solved for {what} near {names[k]} = {there.unknowns[k]:.4g}, because its slope there is 0"
-    mend = f"{another_guess(problem, k)}; if none helps, the equation may have no solution.{inertia}"
-    return f"this equation {here}:\n{lines}\n{mend}"
+    remedy = f"{another_guess(problem, k)}; if none helps, the equation may have no solution.{inertia}"
+    return f"this equation {here}:\n{lines}\n{remedy}"
 
 
 def said_twice(problem: Problem, at: Point) -> str:

@@ -13,7 +13,7 @@ PIECEWISE = "say what holds there: piecewise((value, condition), ..., otherwise)
 ELSEWHERE = f"Start elsewhere, or {PIECEWISE}"
 
 
-def mend_of(problem: Problem, operand: Any) -> str:
+def value_remedy(problem: Problem, operand: Any) -> str:
     """Say what to do where an expression has a value at the start that an equation does not allow.
 
     Parameters

@@ -11,7 +11,7 @@ from acausal.solve.diagnosis.not_finite import without_value
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
-MEND = "Nothing tells whether it holds. Compare what always has a value, such as x > 1 in place of sqrt(x) > 1."
+REMEDY = "Nothing tells whether it holds. Compare what always has a value, such as x > 1 in place of sqrt(x) > 1."
 NO_VALUE = "a condition has no value; check what it divides by, and the arguments of sqrt, log, acos"
 
 
@@ -29,7 +29,7 @@ def undecided(problem: Problem, at: Point, guards: Iterable[int]) -> str:
     """
     if not any(_matters(problem, at, k) for k in guards):
         return ""
-    return without_value(problem, at, kinds=(EVENT,), mend=MEND, timed=False) or NO_VALUE
+    return without_value(problem, at, kinds=(EVENT,), remedy=REMEDY, timed=False) or NO_VALUE
 
 
 def _matters(problem: Problem, at: Point, guard: int) -> bool:

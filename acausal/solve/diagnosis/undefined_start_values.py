@@ -13,7 +13,7 @@ from acausal.flatten.origin import Origin, value_origin
 from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.not_finite import operation, remedy
+from acausal.solve.diagnosis.not_finite import operation, parameter_remedy
 from acausal.solve.diagnosis.probe import There
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -49,7 +49,7 @@ def no_numbers(problem: Problem, at: Point) -> str:
         else:
             why, operand = operation(row, there)
             lines[f"{what} {why}"] = None
-            remedies[remedy(problem, there, [row], operand)] = None
+            remedies[parameter_remedy(problem, there, [row], operand)] = None
     conditions = dict.fromkeys(
         f"  {row.origin}"
         for row in whole(problem.compiled).rows

@@ -241,7 +241,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
     given = [compiled.states[k] for k in np.intersect1d(held, c.states) if k not in parts]
     if lines and np.max(gap) > LOOPS.closed:
         head = _open_head(at.time, len(lines), bool(given or parts))
-        mend = " ".join([_open_mend(given), *_soft_mend(list(parts.values()))])
+        remedy = " ".join([_open_remedy(given), *_soft_remedy(list(parts.values()))])
         if jump:
             names = ", ".join(f"`{name}` = {at.x[compiled.states.index(name)]:.4g}" for name in given)
             loops, they = (
@@ -249,8 +249,8 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
                 "it" if len(given) == 1 else "them",
             )
             head = f"{loops} not close with {names}, where {jump} lets {they} jump:"
-            mend = f"Let {they} jump to what the loop can reach."
-        raise InitializationError("\n".join([head, *lines, *filter(None, directions), mend]))
+            remedy = f"Let {they} jump to what the loop can reach."
+        raise InitializationError("\n".join([head, *lines, *filter(None, directions), remedy]))
 
 
 def _open_head(time: float, n: int, fixed: bool) -> str:
@@ -269,7 +269,7 @@ def soft_parts(compiled: CompiledModel, held: np.ndarray) -> dict[int, Component
     return {state: parts[of[state]] for state in np.intersect1d(held, list(of)).astype(int).tolist()}
 
 
-def _soft_mend(parts: list[Component]) -> list[str]:
+def _soft_remedy(parts: list[Component]) -> list[str]:
     """How each part is told to start without its soft conditions."""
     told = [f"`{p._path}`: {type(p).__name__}({p.without_soft})" for p in dict.fromkeys(parts) if p.without_soft]
     if not told:
@@ -279,7 +279,7 @@ def _soft_mend(parts: list[Component]) -> list[str]:
     ]
 
 
-def _open_mend(fixed: list[str]) -> str:
+def _open_remedy(fixed: list[str]) -> str:
     if not fixed:
         return "Check lengths, or give better guesses of the joints' positions."
     names = ", ".join(f"`{name}`" for name in fixed)

@@ -52,8 +52,8 @@ def start(problem: Problem, time: float, later: float, initial: str, decides: bo
         If no values are found, or none whose switches fit them.
     """
     if initial not in INITIAL:
-        mend = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
-        raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{mend}")
+        remedy = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
+        raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{remedy}")
     try:
         return _started(problem, time, later, initial, decides)
     except Restless as error:
@@ -146,7 +146,7 @@ def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Sta
     try:
         begun = initialize(problem, time, head, initial)
     except Lost as lost:
-        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES, mend="") or str(lost)) from None
+        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES, remedy="") or str(lost)) from None
     if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
         raise InitializationError(without_value(problem, begun.point) or NOT_FINITE)
     if not begun.redundancy.singular and (text := undetermined(problem, begun.point)):

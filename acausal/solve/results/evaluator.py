@@ -14,7 +14,7 @@ from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.point import Rows
 from acausal.solve.results.prescribed import Known
 
-MEND = "Say what holds there: piecewise((value, condition), ..., otherwise)."
+REMEDY = "Say what holds there: piecewise((value, condition), ..., otherwise)."
 
 
 class Evaluator:
@@ -71,7 +71,7 @@ class Evaluator:
     def why(self, row: int) -> str:
         """Say which equations have no value at one of the times, "" if all have one."""
         problem = self.solver.problem
-        return without_value(problem, problem.point(self.rows, row), mend=MEND, timed=False)
+        return without_value(problem, problem.point(self.rows, row), remedy=REMEDY, timed=False)
 
     def _solve(self, wanted: set[int]) -> None:
         """Solve for some algebraic unknowns, and all that they need."""
