@@ -9,7 +9,7 @@ import numpy as np
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
 from acausal.solve.checks.separation import meeting_ahead
-from acausal.solve.diagnosis.not_finite import cause, infinite_slope, without_value
+from acausal.solve.diagnosis.not_finite import cause, infinite_slope, undefined_equations
 from acausal.solve.initialization.newton import Lost, algebraic
 from acausal.solve.initialization.redundancy import Redundancy, is_singular
 from acausal.solve.integrate.attempt import Integrator
@@ -80,14 +80,14 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
     """What fails in the equations at the last point, or a little beyond it along the motion; "" if nothing does."""
-    if found := without_value(problem, at, remedy=LIMITS) or cause(problem, at) or infinite_slope(problem, at):
+    if found := undefined_equations(problem, at, remedy=LIMITS) or cause(problem, at) or infinite_slope(problem, at):
         return found
     rates = problem.values(at)[: problem.nx].copy()
     slope = np.where(np.isfinite(rates), rates, 0.0)
     way = max(stopped - at.time, CAUSES.shortest * (stopped - begun))
     for part in CAUSES.beyond:
         later = replace(at, time=at.time + part * way, x=at.x + part * way * slope)
-        if found := without_value(problem, later, remedy=LIMITS):
+        if found := undefined_equations(problem, later, remedy=LIMITS):
             return found
         try:
             algebraic(problem, later)

@@ -1,4 +1,4 @@
-"""Why equations fail at a point: what has no value there, what says the same, and which parameter that is 0 causes it."""
+"""Why equations fail at a point: what has no value probe, what says the same, and which parameter that is 0 causes it."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.compiler.whole import EQUATION, Row
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.probe import There, of_zeros, zeros_in
-from acausal.solve.diagnosis.singularity import dependent
+from acausal.solve.diagnosis.probe import Probe, decisive_zeros, zeros_text
+from acausal.solve.diagnosis.singularity import dependent_equations
 from acausal.solve.diagnosis.start_values import ELSEWHERE, value_remedy
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -40,11 +40,15 @@ def cause(
     problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,), remedy: str = ELSEWHERE
 ) -> str:
     """Say why equations cannot be solved at a point, "" if nothing in the equations themselves tells."""
-    twice = "" if (missing := without_value(problem, at, flag, kinds, remedy)) else dependent(problem, at, flag)
+    twice = (
+        ""
+        if (missing := undefined_equations(problem, at, flag, kinds, remedy))
+        else dependent_equations(problem, at, flag)
+    )
     return missing or (f"at t = {at.time:.6g} s {twice}" if twice else "")
 
 
-def without_value(
+def undefined_equations(
     problem: Problem,
     at: Point,
     flag: float = 0.0,
@@ -69,38 +73,38 @@ def without_value(
     timed : bool
         Whether to begin with the time.
     """
-    there = There.of(problem, at, flag)
-    rows = [row for row in there.failing() if row.kind in kinds]
+    probe = Probe.of(problem, at, flag)
+    rows = [row for row in probe.failing() if row.kind in kinds]
     if not rows:
         return ""
-    if broken := _broken(problem, there):
+    if broken := _broken(problem, probe):
         return broken
-    found = [(row, *operation(row, there)) for row in rows]
+    found = [(row, *operation(row, probe)) for row in rows]
     lines = list(dict.fromkeys(_line(row, text) for row, text, _ in found))[: CAUSES.shown]
     what = "these equations have" if len(lines) > 1 else f"this {rows[0].kind} has"
-    own = parameter_remedy(problem, there, rows, found[0][2])
+    own = parameter_remedy(problem, probe, rows, found[0][2])
     head = f"at t = {at.time:.6g} s " if timed else ""
     return "\n".join([f"{head}{what} no value:", *lines, own or remedy or value_remedy(problem, found[0][2])])
 
 
 def infinite_slope(problem: Problem, at: Point) -> str:
     """Say which equations change infinitely fast with an unknown at a point, as sqrt(x) at x = 0; "" if none do."""
-    there = There.of(problem, at, 0.0)
-    J = there.whole.slopes(*there.arguments)[0]
-    pattern = np.array(there.whole.slopes.function.sparsity_out(0).row())
-    rows = dict.fromkeys(str(there.whole.rows[k].origin) for k in pattern[~np.isfinite(J)])
+    probe = Probe.of(problem, at, 0.0)
+    J = probe.whole.slopes(*probe.arguments)[0]
+    pattern = np.array(probe.whole.slopes.function.sparsity_out(0).row())
+    rows = dict.fromkeys(str(probe.whole.rows[k].origin) for k in pattern[~np.isfinite(J)])
     if not rows:
         return ""
     lines = "\n".join(f"  {row}" for row in list(rows)[: CAUSES.shown])
     return (
         f"at t = {at.time:.6g} s the slope of this equation is infinite, as that of sqrt(x) at x = 0:\n{lines}\n"
-        "Start beside it, or give the law a finite slope there: sqrt(x + 1e-6), or piecewise(...)."
+        "Start beside it, or give the law a finite slope probe: sqrt(x + 1e-6), or piecewise(...)."
     )
 
 
-def _broken(problem: Problem, there: There) -> str:
+def _broken(problem: Problem, probe: Probe) -> str:
     """What a component requires at the start and does not hold."""
-    stated, values, first = problem.compiled.requirements.at_start, there.whole.required(*there.arguments)[0], 0
+    stated, values, first = problem.compiled.requirements.at_start, probe.whole.required(*probe.arguments)[0], 0
     for requirement, origin in stated:
         own = values[first : (first := first + requirement.sx.numel())]
         if text := requirement.broken(own):
@@ -108,19 +112,19 @@ def _broken(problem: Problem, there: There) -> str:
     return ""
 
 
-def parameter_remedy(problem: Problem, there: There, rows: list[Row], operand: Any) -> str:
+def parameter_remedy(problem: Problem, probe: Probe, rows: list[Row], operand: Any) -> str:
     """Which parameter needs another value, "" if variables are the cause."""
-    zeros = zeros_in(problem, rows, lambda places: not _fails(there.with_parameters(places, 1.0), rows))
+    zeros = decisive_zeros(problem, rows, lambda places: not _fails(probe.with_parameters(places, 1.0), rows))
     own = problem.compiled.reduced.flat.parameters
     names = {s.element_hash(): name for name, s in zip(own.names, scalars(own.symbols), strict=True)}
     inside = [s.element_hash() for s in ca.symvar(operand)]
     if zeros or not inside or any(s not in names for s in inside):
-        return of_zeros(zeros) if zeros else ""
+        return zeros_text(zeros) if zeros else ""
     return f"Give {' or '.join(f'`{names[s]}`' for s in inside[: CAUSES.shown])} another value."
 
 
-def _fails(there: There, rows: list[Row]) -> bool:
-    failing = {id(row) for row in there.failing()}
+def _fails(probe: Probe, rows: list[Row]) -> bool:
+    failing = {id(row) for row in probe.failing()}
     return any(id(row) in failing for row in rows)
 
 
@@ -129,7 +133,7 @@ def _line(row: Row, what: str) -> str:
     return f"  {row.origin}: {'' if row.kind == EQUATION else f'the {row.kind} '}{what}"
 
 
-def operation(row: Row, there: There) -> tuple[str, Any]:
+def operation(row: Row, probe: Probe) -> tuple[str, Any]:
     """The first operation in an expression that has no value, in words, and its operand."""
     nodes: list[Any] = []
     seen: set[int] = set()
@@ -143,8 +147,8 @@ def operation(row: Row, there: There) -> tuple[str, Any]:
             stack += [(node, True), *((node.dep(k), False) for k in range(node.n_dep()))]
     for node in nodes:
         parts = [node.dep(k) for k in range(node.n_dep())]
-        function = Call(ca.Function("node", there.whole.arguments, [ca.densify(ca.vertcat(node, *parts))]))
-        value, *inner = function(*there.arguments)[0].tolist()
+        function = Call(ca.Function("node", probe.whole.arguments, [ca.densify(ca.vertcat(node, *parts))]))
+        value, *inner = function(*probe.arguments)[0].tolist()
         if np.isfinite(value) or not parts or not np.all(np.isfinite(inner)):
             continue
         divides = node.op() in (ca.OP_DIV, ca.OP_INV)

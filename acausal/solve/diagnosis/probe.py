@@ -21,7 +21,7 @@ ROUNDING = POLICY.newton.terms * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
-class There:
+class Probe:
     """The rows of a model at a point."""
 
     whole: Whole
@@ -31,7 +31,7 @@ class There:
     unknowns: np.ndarray
 
     @classmethod
-    def of(cls, problem: Problem, at: Point, flag: float) -> There:
+    def of(cls, problem: Problem, at: Point, flag: float) -> Probe:
         """Take the unknowns that are solved explicitly as they are there."""
         return cls(whole(problem.compiled), problem.p, at, flag, problem.unknowns(at, flag))
 
@@ -48,17 +48,17 @@ class There:
 
     def jacobian(self) -> np.ndarray:
         """Jacobian of the equations by the unknowns that are solved for; entries that are rounding are 0."""
-        J, changed = (self.whole.jacobian(*at.arguments) for at in (self, replace(self, p=beside(self.p))))
+        J, changed = (self.whole.jacobian(*at.arguments) for at in (self, replace(self, p=perturbed(self.p))))
         return np.where(is_rounding(J, changed), 0.0, J)
 
-    def with_parameters(self, places: Sequence[int], value: float) -> There:
+    def with_parameters(self, places: Sequence[int], value: float) -> Probe:
         """The same point with other parameters."""
         p = self.p.copy()
         p[list(places)] = value
         return replace(self, p=p)
 
 
-def zeros_in(problem: Problem, rows: list[Row], matters: Callable[[Sequence[int]], bool]) -> list[str]:
+def decisive_zeros(problem: Problem, rows: list[Row], matters: Callable[[Sequence[int]], bool]) -> list[str]:
     """Return the parameters in some rows that are 0 and matter: single ones, or where none does alone, whole arrays.
 
     Parameters
@@ -84,14 +84,14 @@ def zeros_in(problem: Problem, rows: list[Row], matters: Callable[[Sequence[int]
     return [array for array, places in arrays.items() if len(places) > 1 and matters(places)]
 
 
-def of_zeros(names: list[str]) -> str:
+def zeros_text(names: list[str]) -> str:
     """Say that some parameters are 0."""
     shown = " and ".join(f"`{name}`" for name in names[: CAUSES.shown])
     verb = "is" if len(names) == 1 else "are"
     return f"{shown} {verb} 0, which the equations do not allow. Give another value."
 
 
-def beside(p: np.ndarray) -> np.ndarray:
+def perturbed(p: np.ndarray) -> np.ndarray:
     """Return parameters that are changed by rounding."""
     return p * _changes(len(p))
 
@@ -109,4 +109,4 @@ def is_rounding(entries: np.ndarray, beside: np.ndarray) -> np.ndarray:
     entries, beside : arrays of the same shape
         Of a Jacobian, and what they are for the changed parameters.
     """
-    return (entries != 0) & (np.abs(beside - entries) >= np.abs(entries))
+    return (entries != 0) & (np.abs(perturbed - entries) >= np.abs(entries))

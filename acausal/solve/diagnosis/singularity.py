@@ -17,7 +17,7 @@ from acausal.compiler.core_equations import core_square
 from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.pivot_scaling import scaled_to_pivots
-from acausal.solve.diagnosis.probe import ROUNDING, There, beside, is_rounding, of_zeros, zeros_in
+from acausal.solve.diagnosis.probe import ROUNDING, Probe, decisive_zeros, is_rounding, perturbed, zeros_text
 from acausal.solve.diagnosis.start_values import another_guess
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -35,7 +35,7 @@ SIDE_BY_SIDE = (
 )
 
 
-def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
+def dependent_equations(problem: Problem, at: Point, flag: float = 0.0) -> str:
     """Say which equations depend on each other at a point, and what they leave open; "" if none do.
 
     Parameters
@@ -47,22 +47,24 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     flag : float
         1 while the initial system holds.
     """
-    there = There.of(problem, at, flag)
-    left, right = _null(there)
+    probe = Probe.of(problem, at, flag)
+    left, right = _null_vectors(probe)
     if not len(right):
         return ""
-    rows, names = there.whole.rows, there.whole.names
-    origins = dict.fromkeys(str(rows[k].origin) for k in _heavy(left) if rows[k].origin.where)
-    open_ = [f"`{names[there.whole.solved[k]]}`" for k in _heavy(right) if names[there.whole.solved[k]]]
-    inside = [rows[k] for k in _heavy(left)]
-    zeros = zeros_in(problem, inside, lambda places: not len(_null(there.with_parameters(places, 1.0))[1]))
+    rows, names = probe.whole.rows, probe.whole.names
+    origins = dict.fromkeys(str(rows[k].origin) for k in _participants(left) if rows[k].origin.where)
+    open_ = [f"`{names[probe.whole.solved[k]]}`" for k in _participants(right) if names[probe.whole.solved[k]]]
+    inside = [rows[k] for k in _participants(left)]
+    zeros = decisive_zeros(
+        problem, inside, lambda places: not len(_null_vectors(probe.with_parameters(places, 1.0))[1])
+    )
     what = ", ".join(open_[: CAUSES.shown]) + (f" and {more} more" if (more := len(open_) - CAUSES.shown) > 0 else "")
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:
-        return f"{of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
+        return f"{zeros_text(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
     rates = [name.startswith("`der(") for name in open_]
     inertia = NO_INERTIA if any(rates) else ""
-    if len(inside) > 1 and _same(there):
+    if len(inside) > 1 and _dependent_around(probe):
         if not all(rates):  # forces among them
             remedy = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 else ANOTHER
         else:
@@ -74,8 +76,8 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
             "Give other guesses; if none helps, they say the same or contradict each other: replace one of them."
             + inertia
         )
-    k = int(there.whole.solved[_heavy(right)[0]])
-    here = f"cannot be solved for {what} near {names[k]} = {there.unknowns[k]:.4g}, because its slope there is 0"
+    k = int(probe.whole.solved[_participants(right)[0]])
+    here = f"cannot be solved for {what} near {names[k]} = {probe.unknowns[k]:.4g}, because its slope probe is 0"
     remedy = f"{another_guess(problem, k)}; if none helps, the equation may have no solution.{inertia}"
     return f"this equation {here}:\n{lines}\n{remedy}"
 
@@ -85,45 +87,45 @@ def said_twice(problem: Problem, at: Point) -> str:
 
     A position in which motions branch is not meant.
     """
-    return dependent(problem, at) if _same(There.of(problem, at, 0.0)) else ""
+    return dependent_equations(problem, at) if _dependent_around(Probe.of(problem, at, 0.0)) else ""
 
 
-def _same(there: There) -> bool:
-    """Whether equations that depend on each other at a point hold there, and depend on each other beside it as well."""
-    left, _ = _null(there)
+def _dependent_around(probe: Probe) -> bool:
+    """Whether equations that depend on each other at a point hold probe, and depend on each other beside it as well."""
+    left, _ = _null_vectors(probe)
     if not len(left):
         return False
-    J = there.whole.sensitivities(*there.arguments)
-    size = abs(J) @ (np.abs(there.unknowns) + 1.0)
-    held = np.abs(there.whole.values(*there.arguments)[0][: len(size)]) <= POLICY.newton.consistent * size
-    move = POLICY.ranks.motion * np.random.default_rng(0).standard_normal((2, len(there.unknowns)))
-    beside = replace(there, unknowns=there.unknowns * (1.0 + move[0]) + move[1])
-    return bool(np.all(held[_heavy(left)])) and len(_null(beside)[1]) >= len(left)
+    J = probe.whole.sensitivities(*probe.arguments)
+    size = abs(J) @ (np.abs(probe.unknowns) + 1.0)
+    held = np.abs(probe.whole.values(*probe.arguments)[0][: len(size)]) <= POLICY.newton.consistent * size
+    move = POLICY.ranks.motion * np.random.default_rng(0).standard_normal((2, len(probe.unknowns)))
+    beside = replace(probe, unknowns=probe.unknowns * (1.0 + move[0]) + move[1])
+    return bool(np.all(held[_participants(left)])) and len(_null_vectors(beside)[1]) >= len(left)
 
 
-def _null(there: There) -> tuple[np.ndarray, np.ndarray]:
+def _null_vectors(probe: Probe) -> tuple[np.ndarray, np.ndarray]:
     """Combinations of equations, and of unknowns, that vanish: shapes (k, equations), (k, unknowns)."""
-    solved = there.whole.solved
+    solved = probe.whole.solved
     none = np.zeros((0, 0)), np.zeros((0, 0))
     if not 0 < len(solved) <= CAUSES.largest:
         return none
-    J = there.jacobian()
+    J = probe.jacobian()
     if J.shape[0] != J.shape[1] or not np.all(np.isfinite(J)):
         return none
     for _ in range(CAUSES.balancing):
-        J = J / _sizes(J, 1)
-        J = J / _sizes(J, 0)
+        J = J / _lengths(J, 1)
+        J = J / _lengths(J, 0)
     U, s, V = np.linalg.svd(J)
     k = int(np.sum(s <= CAUSES.rank * s[0]))
     return (U.T[-k:], V[-k:]) if k else none
 
 
-def _sizes(J: np.ndarray, axis: int) -> np.ndarray:
+def _lengths(J: np.ndarray, axis: int) -> np.ndarray:
     size = np.linalg.norm(J, axis=axis, keepdims=True)
     return np.where(size > 0, size, 1.0)
 
 
-def _heavy(vectors: np.ndarray) -> list[int]:
+def _participants(vectors: np.ndarray) -> list[int]:
     """What takes part in the vectors, what weighs most first; what weighs the same but for rounding, in its own order."""
     weight = np.linalg.norm(vectors, axis=0)
     weight = np.round(weight / np.max(weight), CAUSES.digits)
@@ -132,24 +134,24 @@ def _heavy(vectors: np.ndarray) -> list[int]:
 
 def undetermined(problem: Problem, at: Point) -> str:
     """Say which equations say the same at a point and beside it, and what they leave open; "" if none do."""
-    sure = _sure(problem, at) or _pivots_hold(_without_rounding(problem, at))
+    sure = _regular_in_core(problem, at) or _pivots_hold(_without_rounding(problem, at))
     return "" if sure else said_twice(problem, at)
 
 
-def _sure(problem: Problem, at: Point) -> bool:
+def _regular_in_core(problem: Problem, at: Point) -> bool:
     """Whether the core has factors whose pivots are far from rounding, which is known in a tenth of the time."""
     least = problem.least_pivot(at)
     if least <= POLICY.ranks.rank:
         return False
     square = core_square(problem.compiled, tuple(range(problem.nz)))
-    p = np.array([problem.p, beside(problem.p)])
+    p = np.array([problem.p, perturbed(problem.p)])
     values = square.tape.rows(p, at.constants.vector, at.x, at.z, np.array([at.time]))
     return not np.any(is_rounding(*values[:, problem.nz :]))
 
 
 def _without_rounding(problem: Problem, at: Point) -> scipy.sparse.csc_matrix:
     """Jacobian of the algebraic equations; entries that are rounding are 0."""
-    inner, changed = _inner(problem.compiled), replace(problem, p=beside(problem.p))
+    inner, changed = _algebraic_block(problem.compiled), replace(problem, p=perturbed(problem.p))
     J, other = (inner.sparse(own.local(at).entries) for own in (problem, changed))
     J.data[is_rounding(J.data, other.data)] = 0.0
     return J
@@ -171,6 +173,6 @@ def _pivots_hold(J: scipy.sparse.csc_matrix) -> bool:
 
 
 @once
-def _inner(compiled: CompiledModel) -> Block:
+def _algebraic_block(compiled: CompiledModel) -> Block:
     unknowns = np.arange(compiled.nx, compiled.nx + compiled.nz)
     return block_of(compiled.pattern, unknowns, unknowns)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from acausal.compiler.whole import EVENT, whole
-from acausal.solve.diagnosis.not_finite import without_value
+from acausal.solve.diagnosis.not_finite import undefined_equations
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
@@ -15,7 +15,7 @@ REMEDY = "Nothing tells whether it holds. Compare what always has a value, such 
 NO_VALUE = "a condition has no value; check what it divides by, and the arguments of sqrt, log, acos"
 
 
-def undecided(problem: Problem, at: Point, guards: Iterable[int]) -> str:
+def undefined_conditions(problem: Problem, at: Point, guards: Iterable[int]) -> str:
     """Say which of some conditions without a value matter at a point, "" if none does; the time is not told.
 
     Parameters
@@ -29,7 +29,7 @@ def undecided(problem: Problem, at: Point, guards: Iterable[int]) -> str:
     """
     if not any(_matters(problem, at, k) for k in guards):
         return ""
-    return without_value(problem, at, kinds=(EVENT,), remedy=REMEDY, timed=False) or NO_VALUE
+    return undefined_equations(problem, at, kinds=(EVENT,), remedy=REMEDY, timed=False) or NO_VALUE
 
 
 def _matters(problem: Problem, at: Point, guard: int) -> bool:

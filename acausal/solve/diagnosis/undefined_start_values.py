@@ -14,7 +14,7 @@ from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.not_finite import operation, parameter_remedy
-from acausal.solve.diagnosis.probe import There
+from acausal.solve.diagnosis.probe import Probe
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars
@@ -23,7 +23,7 @@ START_VALUE = "start value"
 SHOWN = POLICY.causes.shown
 
 
-def no_numbers(problem: Problem, at: Point) -> str:
+def undefined_start_values(problem: Problem, at: Point) -> str:
     """Say which start values are no numbers, why, and which conditions compare them; "" if all are numbers.
 
     A discrete variable may be infinite: the instant of an event that never comes.
@@ -41,15 +41,15 @@ def no_numbers(problem: Problem, at: Point) -> str:
         return ""
     symbols, starts = ([e for pair in discretes for e in scalars(pair[k])] for k in (0, 1))
     by_symbol = {symbols[k].element_hash(): starts[k] for k in np.flatnonzero(absent)}
-    there, lines, remedies = There.of(problem, at, 0.0), dict[str, None](), dict[str, None]()
+    probe, lines, remedies = Probe.of(problem, at, 0.0), dict[str, None](), dict[str, None]()
     for name, row in [*_discretes(problem, by_symbol), *_unknowns(problem, np.flatnonzero(unknown))]:
         what = f"  `{name}` of {row.origin.owner}"
         if row.expression.is_constant():
             lines[f"{what} is {float(row.expression):g}"] = None
         else:
-            why, operand = operation(row, there)
+            why, operand = operation(row, probe)
             lines[f"{what} {why}"] = None
-            remedies[parameter_remedy(problem, there, [row], operand)] = None
+            remedies[parameter_remedy(problem, probe, [row], operand)] = None
     conditions = dict.fromkeys(
         f"  {row.origin}"
         for row in whole(problem.compiled).rows

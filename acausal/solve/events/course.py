@@ -14,7 +14,7 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.not_finite import cause
 from acausal.solve.diagnosis.singularity import undetermined
-from acausal.solve.diagnosis.undefined_conditions import undecided
+from acausal.solve.diagnosis.undefined_conditions import undefined_conditions
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.between import work_between
@@ -102,7 +102,7 @@ class Course:
         """Refuse conditions of time alone that have no value up to the next break."""
         time = at.time + POLICY.agenda.after * (end - at.time)
         open_ = self.agenda.undecided(time)
-        if open_ and (text := undecided(self.integrator.problem, replace(at, time=time), open_)):
+        if open_ and (text := undefined_conditions(self.integrator.problem, replace(at, time=time), open_)):
             raise Undecided(at.time, text)
 
     def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:

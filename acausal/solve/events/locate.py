@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.undefined_conditions import undecided
+from acausal.solve.diagnosis.undefined_conditions import undefined_conditions
 from acausal.solve.events.between import between
 from acausal.solve.events.crossing import Sides, dips, levels, root, turns
 from acausal.solve.events.instant import Instants
@@ -133,7 +133,9 @@ class Locator:
         lost = np.isnan(samples.value)
         rows = np.flatnonzero(lost.any(axis=1))
         for k in rows[[0, -1]] if rows.size else ():
-            if text := undecided(self.integrator.problem, samples[k].at, self.instants.watched[lost[k]].tolist()):
+            if text := undefined_conditions(
+                self.integrator.problem, samples[k].at, self.instants.watched[lost[k]].tolist()
+            ):
                 return int(rows[0] if k == rows[0] else k), text
         return len(samples), ""
 

@@ -13,10 +13,10 @@ from acausal.compiler.set_valued import MODE, SHARED
 from acausal.compiler.whole import EQUATION, START
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.not_finite import cause, without_value
+from acausal.solve.diagnosis.not_finite import cause, undefined_equations
 from acausal.solve.diagnosis.singularity import undetermined
-from acausal.solve.diagnosis.undefined_conditions import undecided
-from acausal.solve.diagnosis.undefined_start_values import no_numbers
+from acausal.solve.diagnosis.undefined_conditions import undefined_conditions
+from acausal.solve.diagnosis.undefined_start_values import undefined_start_values
 from acausal.solve.initialization.complete_by_rank import leave_singular
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.equilibrium import Restless
@@ -68,7 +68,7 @@ def _started(problem: Problem, time: float, later: float, initial: str, decides:
     tried = ModeSearch([k for k in guards.watched if k < guards.n_switches])
     decides = decides and initial not in ("steady", TURNING)  # an equilibrium may rest on friction
     head = guards.estimate(p, time, later)[0].copy()
-    if text := no_numbers(problem, first_guess(problem, time, head)):
+    if text := undefined_start_values(problem, first_guess(problem, time, head)):
         raise InitializationError(text)
     head = _released(problem, head, decides)
     head = tried.next(head, head)
@@ -148,7 +148,7 @@ def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Sta
     except Lost as lost:
         raise InitializationError(cause(problem, lost.at, lost.flag, STAGES, remedy="") or str(lost)) from None
     if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
-        raise InitializationError(without_value(problem, begun.point) or NOT_FINITE)
+        raise InitializationError(undefined_equations(problem, begun.point) or NOT_FINITE)
     if not begun.redundancy.singular and (text := undetermined(problem, begun.point)):
         raise InitializationError(f"at t = {time:.6g} s {text}")
     return begun
@@ -175,7 +175,7 @@ def _initial_mode(problem: Problem, at: Point, doubtful: np.ndarray, head: np.nd
     if not guards.watched:
         return np.zeros(0, dtype=bool)
     value = problem.indicators(Rows.of(at))[0][0]
-    if text := undecided(problem, at, np.array(guards.watched)[np.isnan(value)].tolist()):
+    if text := undefined_conditions(problem, at, np.array(guards.watched)[np.isnan(value)].tolist()):
         raise InitializationError(f"at t = {at.time:.6g} s {text}")
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])

@@ -9,7 +9,7 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.errors import caution
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol
-from acausal.solve.diagnosis.not_finite import without_value
+from acausal.solve.diagnosis.not_finite import undefined_equations
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.point import Rows
 from acausal.solve.results.prescribed import Known
@@ -71,7 +71,7 @@ class Evaluator:
     def why(self, row: int) -> str:
         """Say which equations have no value at one of the times, "" if all have one."""
         problem = self.solver.problem
-        return without_value(problem, problem.point(self.rows, row), remedy=REMEDY, timed=False)
+        return undefined_equations(problem, problem.point(self.rows, row), remedy=REMEDY, timed=False)
 
     def _solve(self, wanted: set[int]) -> None:
         """Solve for some algebraic unknowns, and all that they need."""
