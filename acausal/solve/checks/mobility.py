@@ -9,7 +9,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.language.functions import time
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.loop_directions import differing
+from acausal.solve.diagnosis.loop_directions import nonparallel_directions
 from acausal.solve.initialization.redundancy import lowest
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -51,7 +51,7 @@ def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
                 f"the loop{through} that {cut.a} and {cut.b} close ({cut.where}) lets nothing move, but only just: one of its "
                 f"constraints follows from the others up to {least:.1g}. Give axes that are meant to be parallel, and lengths "
                 "that are meant to be equal, with all digits, or compute them from one another."
-                + f" {differing(problem.compiled, cut.parts)}".rstrip()
+                + f" {nonparallel_directions(problem.compiled, cut.parts)}".rstrip()
             )
     return found
 

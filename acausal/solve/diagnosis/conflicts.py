@@ -1,4 +1,4 @@
-"""What conditions at the start contradict: other conditions that determine what they say as well, or the equations."""
+"""Conflicting initial conditions: which others, together with the equations, determine the same quantity."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ from acausal.solve.problem import Problem
 
 
 def contradiction(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> str:
-    """Say what some conditions, which do not hold at the solution of the initial system, contradict."""
-    # Values that the equations leave open are anything: what is given for them only seems to contradict others.
+    """Return the message on conditions that the solution of the initial system violates, with those they contradict."""
+    # Undetermined unknowns take arbitrary values, which only seem to contradict conditions on them.
     if text := undetermined(problem, at):
         return f"at t = {at.time:.6g} s {text}"
     value = problem.values(at, 1.0)[problem.nx :].copy()
-    return contradiction_text(problem.compiled, value, wrong, _opponents(problem, system, at, wrong))
+    return contradiction_text(problem.compiled, value, wrong, _conflicting(problem, system, at, wrong))
 
 
-def _opponents(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> list[int]:
-    """Return the conditions that hold and that, with the equations, determine the residuals of some others.
+def _conflicting(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> list[int]:
+    """Return the conditions that hold and, with the equations, determine the residuals of the violated ones.
 
     Parameters
     ----------
     problem : Problem
         The model.
     system : InitialSystem
-        What was solved.
+        The initial system.
     at : Point
         Its solution.
     wrong : list of int
-        Conditions that do not hold there.
+        Conditions that it violates.
 
     Returns
     -------
     list of int
-        Those in whose combinations with the equations the gradients of the others are; none where there are too many
-        equations to tell.
+        Those whose gradients, with those of the equations, span the gradients of the violated ones; empty for systems
+        that are too large for the dense least squares.
     """
     nx, nz = problem.nx, problem.nz
     if nx + nz > POLICY.causes.largest:

@@ -1,4 +1,4 @@
-"""Why a run ended early, in the user's words: what an integrator could not do, in which equations, and the mend."""
+"""Message of a failed run: what the integrator could not do, in which equations, and the remedy."""
 
 from __future__ import annotations
 
@@ -18,38 +18,38 @@ from acausal.solve.integrate.segment import approached
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
-MOST = 3  # states that are named
+LISTED = 3  # states in a message
 CAUSES = POLICY.causes
 SINGULAR = (
-    "The loops are in or near a singular position there, as where all links lie in line: it does not determine "
-    "on which branch they continue, and forces have no value. Start 0.01 rad away from it, give a velocity with which "
-    "they can continue, w=fixed(...) of a joint, or try another method=."
+    "The loops are in or near a singular configuration there, as where all links lie in line: it does not determine "
+    "on which branch they continue, and forces are undefined. Start 0.01 rad away from it, give a velocity along one "
+    "branch, w=fixed(...) of a joint, or try another method=."
 )
 REMEDIES = {
-    Kind.STEPS: "Something changes ever faster, or much faster than the outputs are apart: a force that becomes infinite "
-    "(1/r^2 at r = 0), a value that grows without bound, or a very stiff or very light part. Check the equations above, or "
-    "let the run end earlier, stop_time=...; a run that is only long needs more intervals=....",
-    Kind.STALLED: "Something becomes infinite there: a force (1/r^2 at r = 0), or a value that grows without bound. Check the "
-    "equations above, or let the run end earlier, stop_time=....",
-    Kind.ROUNDING: "Take a larger one, for instance tolerance=1e-9.",
-    None: "A value that grows without bound, a force that becomes infinite, or a jump inside a function stops a run. Check "
-    "the equations above; write a jump as piecewise(...) or when(...).",
+    Kind.STEPS: "The solution changes ever faster, or much faster than the outputs show: a force tends to infinity (1/r^2 "
+    "at r = 0), a value grows without bound, or a part is very stiff or very light. Check the equations above, or end the "
+    "run earlier, stop_time=...; if the run is only long, give more intervals=....",
+    Kind.STALLED: "A force tends to infinity (1/r^2 at r = 0), or a value grows without bound. Check the equations above, "
+    "or end the run earlier, stop_time=....",
+    Kind.ROUNDING: "Give a larger one, for instance tolerance=1e-9.",
+    None: "A value grows without bound, a force tends to infinity, or a function jumps. Check the equations above; write a "
+    "jump as piecewise(...) or when(...).",
 }
 
 
 def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure: Failure) -> str:
-    """Return the message for a run that an integrator gave up.
+    """Return the message for a run in which the integrator failed.
 
     Parameters
     ----------
     integrator : Integrator
-        What it computed.
+        With the results so far.
     begun : Point
-        Where the run began.
+        Start of the run.
     left : Redundancy
-        What was found about its loops there.
+        Redundant constraints and singularity of the start.
     failure : Failure
-        When it ended, and why.
+        Time and reason.
     """
     problem, pieces = integrator.problem, integrator.trace.pieces
     reached = bool(pieces)
@@ -68,7 +68,7 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
         return "\n".join([*lines, _fastest(problem, near), SINGULAR])
     found = _cause(problem, at, failure.time, begun.time)
     if found:
-        # What fails in the equations explains all; that no step was short enough would be a second head.
+        # The failure of the equations is the cause; the reason of the integrator would only repeat the symptom.
         same = f"at t = {failure.time:.6g} s "
         lines = (
             [f"{head} {found.removeprefix(same)}"] if found.startswith(same) else [*lines, found[0].upper() + found[1:]]
@@ -79,7 +79,7 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
 
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
-    """What fails in the equations at the last point, or a little beyond it along the motion; "" if nothing does."""
+    """Return which equations fail at the last point, or slightly beyond it along the motion; "" if none does."""
     if found := undefined_equations(problem, at, remedy=LIMITS) or cause(problem, at) or infinite_slope(problem, at):
         return found
     rates = problem.values(at)[: problem.nx].copy()
@@ -92,48 +92,42 @@ def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
         try:
             algebraic(problem, later)
         except Lost as lost:
-            return f"from there on no solution of these equations is found:\n{lost.worst}\n{LIMITS}"
+            return f"from there on these equations have no solution:\n{lost.worst}\n{LIMITS}"
     return ""
 
 
-LIMITS = (
-    "Say what holds beyond, piecewise((value, condition), ..., otherwise), or let the run end before, stop_time=...."
-)
+LIMITS = "State what holds beyond, piecewise((value, condition), ..., otherwise), or end the run before, stop_time=...."
 
 
 def _too_long(problem: Problem, begun: Point, stop: float) -> str:
-    """Say that times at the end of a run are further apart than values take to change at its start; "" if they are not."""
+    """Return the message that floating-point times at the end are coarser than the fastest change at the start, or ""."""
     rates, apart = _rates(problem, begun), float(np.spacing(abs(stop)))
     fastest = float(np.max(rates, where=np.isfinite(rates), initial=0.0))
     if fastest * apart <= 1:
         return ""
     return (
-        f"stop_time={stop:g} is too large: computed times near it are {apart:.2g} s apart, but values change within "
-        f"{1 / fastest:.2g} s at the start. Let the run end earlier, stop_time=...."
+        f"stop_time={stop:g} is too large: floating-point times near it are {apart:.2g} s apart, but values change within "
+        f"{1 / fastest:.2g} s at the start. End the run earlier, stop_time=...."
     )
 
 
 def _rates(problem: Problem, at: Point) -> np.ndarray:
-    """How fast the states change at a point, in their sizes over s."""
+    """Rates of the states at a point, relative to nominal values, in 1/s."""
     return np.abs(problem.values(at)[: problem.nx] / problem.compiled.nominal[: problem.nx])
 
 
 def _fastest(problem: Problem, at: Point) -> str:
-    """The states that change fastest at a point, and the equations that say so."""
+    """Return the states that change fastest at a point, with the equations of their rates."""
     compiled = problem.compiled
     rates = _rates(problem, at)
-    order = np.argsort(-np.nan_to_num(rates, nan=np.inf))[:MOST]
+    order = np.argsort(-np.nan_to_num(rates, nan=np.inf))[:LISTED]
     moving = [int(k) for k in order if rates[k] > 0 or not np.isfinite(rates[k])]
     lines = [f"  `{compiled.states[k]}` = {at.x[k]:.4g}{_where(problem, k)}" for k in moving]
-    return (
-        f"What changes fastest at t = {at.time:.6g} s, the last values that are right:\n" + "\n".join(lines)
-        if lines
-        else ""
-    )
+    return f"Fastest changes at t = {at.time:.6g} s, the last accepted values:\n" + "\n".join(lines) if lines else ""
 
 
 def _where(problem: Problem, state: int) -> str:
-    """Where the derivative of a state is stated, "" if it follows from a joint or a root."""
+    """Return where the derivative of a state is stated, "" if a joint or a root defines it."""
     r = problem.compiled.reduced
     rate = r.plan.system.derivative[r.plan.states[state]]
     origins = r.flat.equations.origins

@@ -1,4 +1,4 @@
-"""Directions of the parts of a loop that differ: the likely reason why it does not close, or lets nothing move."""
+"""Directions in a loop that are not parallel: the likely reason why it does not close, or is locked."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from acausal.compiler import CompiledModel
 from acausal.flatten.tree import join, walk
 from acausal.language.fields import Structural
 
-DIGITS = 12  # of directions that count as equal
+DIGITS = 12  # decimals of a unit vector to which parallel directions agree: those of input, not round-off
 
 
-def differing(compiled: CompiledModel, parts: Iterable[str]) -> str:
-    """List structural directions of some parts, where those of one name are not all parallel; "" where they are.
+def nonparallel_directions(compiled: CompiledModel, parts: Iterable[str]) -> str:
+    """Return the text that lists structural directions of a loop; "" if all of one name are parallel.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def differing(compiled: CompiledModel, parts: Iterable[str]) -> str:
     texts = []
     for own in found.values():
         if len(own) > 1:
-            # What few parts have is the likely slip.
+            # The direction of the fewest parts is the likely mistake.
             rows = sorted(own.items(), key=lambda pair: len(pair[1]))
             texts += [
                 f"{', '.join(f'`{p}`' for p in paths)} along ({', '.join(f'{e:.6g}' for e in unit)})"

@@ -1,4 +1,4 @@
-"""Why equations fail at a point: what has no value probe, what says the same, and which parameter that is 0 causes it."""
+"""Equations that are not finite at a point: the operation that fails, and the parameter or start value that causes it."""
 
 from __future__ import annotations
 
@@ -39,13 +39,11 @@ WORDS = {
 def cause(
     problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,), remedy: str = ELSEWHERE
 ) -> str:
-    """Say why equations cannot be solved at a point, "" if nothing in the equations themselves tells."""
-    twice = (
-        ""
-        if (missing := undefined_equations(problem, at, flag, kinds, remedy))
-        else dependent_equations(problem, at, flag)
-    )
-    return missing or (f"at t = {at.time:.6g} s {twice}" if twice else "")
+    """Return why equations cannot be solved at a point: not finite or singular; "" if neither."""
+    if undefined := undefined_equations(problem, at, flag, kinds, remedy):
+        return undefined
+    singular = dependent_equations(problem, at, flag)
+    return f"at t = {at.time:.6g} s {singular}" if singular else ""
 
 
 def undefined_equations(
@@ -56,7 +54,7 @@ def undefined_equations(
     remedy: str = ELSEWHERE,
     timed: bool = True,
 ) -> str:
-    """Say which equations have no value at a point, "" if all have one.
+    """Return the message on equations that are not finite at a point, "" if all are finite.
 
     Parameters
     ----------
@@ -67,11 +65,11 @@ def undefined_equations(
     flag : float
         1 while the initial system holds.
     kinds : iterable of str
-        Rows that count, see `Row`.
+        Kinds of equations that are examined, see `Row`.
     remedy : str
-        What to do where no parameter is the cause; "" for what suits guesses and start values.
+        Remedy if no parameter is the cause; "" for other guesses or start values.
     timed : bool
-        Whether to begin with the time.
+        Whether the message begins with the time.
     """
     probe = Probe.of(problem, at, flag)
     rows = [row for row in probe.failing() if row.kind in kinds]
@@ -88,7 +86,7 @@ def undefined_equations(
 
 
 def infinite_slope(problem: Problem, at: Point) -> str:
-    """Say which equations change infinitely fast with an unknown at a point, as sqrt(x) at x = 0; "" if none do."""
+    """Return the message on equations with an infinite derivative at a point, as of sqrt(x) at x = 0; "" if none has."""
     probe = Probe.of(problem, at, 0.0)
     J = probe.whole.slopes(*probe.arguments)[0]
     pattern = np.array(probe.whole.slopes.function.sparsity_out(0).row())
@@ -98,12 +96,12 @@ def infinite_slope(problem: Problem, at: Point) -> str:
     lines = "\n".join(f"  {row}" for row in list(rows)[: CAUSES.shown])
     return (
         f"at t = {at.time:.6g} s the slope of this equation is infinite, as that of sqrt(x) at x = 0:\n{lines}\n"
-        "Start beside it, or give the law a finite slope probe: sqrt(x + 1e-6), or piecewise(...)."
+        "Start elsewhere, or give the law a finite slope there: sqrt(x + 1e-6), or piecewise(...)."
     )
 
 
 def _broken(problem: Problem, probe: Probe) -> str:
-    """What a component requires at the start and does not hold."""
+    """Return the requirement of a component at the start that is violated, "" if none is."""
     stated, values, first = problem.compiled.requirements.at_start, probe.whole.required(*probe.arguments)[0], 0
     for requirement, origin in stated:
         own = values[first : (first := first + requirement.sx.numel())]
@@ -113,7 +111,7 @@ def _broken(problem: Problem, probe: Probe) -> str:
 
 
 def parameter_remedy(problem: Problem, probe: Probe, rows: list[Row], operand: Any) -> str:
-    """Which parameter needs another value, "" if variables are the cause."""
+    """Return which parameter needs another value, "" if variables are the cause."""
     zeros = decisive_zeros(problem, rows, lambda places: not _fails(probe.with_parameters(places, 1.0), rows))
     own = problem.compiled.reduced.flat.parameters
     names = {s.element_hash(): name for name, s in zip(own.names, scalars(own.symbols), strict=True)}
@@ -129,12 +127,12 @@ def _fails(probe: Probe, rows: list[Row]) -> bool:
 
 
 def _line(row: Row, what: str) -> str:
-    """Where a row is stated, and what fails in it."""
+    """Where an equation is stated, and which operation fails in it."""
     return f"  {row.origin}: {'' if row.kind == EQUATION else f'the {row.kind} '}{what}"
 
 
 def operation(row: Row, probe: Probe) -> tuple[str, Any]:
-    """The first operation in an expression that has no value, in words, and its operand."""
+    """Describe the first operation of an expression that is not finite; return its operand, too."""
     nodes: list[Any] = []
     seen: set[int] = set()
     stack = [(row.expression, False)]
@@ -161,11 +159,11 @@ def operation(row: Row, probe: Probe) -> tuple[str, Any]:
 
 
 def _named(operand: Any, value: float) -> str:
-    """The operand as it is computed, where that is short, and its value."""
+    """Return the text of an operand, if it is short, and its value."""
     text = str(operand)
     text = text[1:-1] if text.startswith("(") and text.count("(") == 1 else text
     is_short = len(text) <= CAUSES.text and "@" not in text and not operand.is_constant()
     number = f"{value:.4g}"
-    if abs(float(number)) == 1 != abs(value):  # rounding would take it back into its range
-        number = f"a little {'more' if value > 0 else 'less'} than {number}"
+    if abs(float(number)) == 1 != abs(value):  # rounded to four digits it would lie in its range
+        number = f"slightly {'more' if value > 0 else 'less'} than {number}"
     return f"{text} = {number}" if is_short else number

@@ -1,4 +1,4 @@
-"""Scaling of equations and unknowns that no choice of units changes."""
+"""Scaling of equations and unknowns that is independent of units."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ GRID = POLICY.loops.grid
 
 
 def scaled_to_pivots(J: scipy.sparse.csc_matrix) -> scipy.sparse.csc_matrix | None:
-    """Scale rows and columns so that the transversal of largest product has entries of 1, and no entry is larger.
+    """Scale and permute so that the transversal of largest product is a diagonal of ones and no other entry exceeds 1.
 
-    The transversal comes to the diagonal. None if there is none: the matrix is structurally singular. Its logarithms are a
-    matching of least weight, and the factors its dual variables (Duff and Koster 2001), found as shortest paths.
+    The logarithms of its entries are a matching of least weight, those of the scale factors the dual variables (Duff and
+    Koster 2001), found as shortest paths. None if the matrix is structurally singular.
 
     Parameters
     ----------
     J : csc_matrix, shape (n, n)
-        Its entries are finite.
+        With finite entries.
     """
     entries, n = J.tocoo(), J.shape[0]
     on = entries.data != 0
     row, column, data = entries.row[on], entries.col[on], entries.data[on]
-    # On a grid their sums are exact: the search may turn for ever where they round.
+    # Sums of multiples of GRID are exact; with round-off the matching may cycle for ever.
     length = -np.round(np.log(np.abs(data)) / GRID) * GRID
     weights = scipy.sparse.csr_matrix((length - np.min(length, initial=0.0) + 1.0, (row, column)), shape=J.shape)
     try:

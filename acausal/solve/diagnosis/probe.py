@@ -1,4 +1,4 @@
-"""The rows of a model at a point, and which of its parameters are 0 in them: what tells why equations fail there."""
+"""Residuals and Jacobian of all equations at a point, and their zero parameters, to diagnose failures there."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ROUNDING = POLICY.newton.terms * np.finfo(float).eps
 
 @dataclass(frozen=True)
 class Probe:
-    """The rows of a model at a point."""
+    """All equations of a model at a point, those included that are solved explicitly."""
 
     whole: Whole
     p: np.ndarray
@@ -32,43 +32,43 @@ class Probe:
 
     @classmethod
     def of(cls, problem: Problem, at: Point, flag: float) -> Probe:
-        """Take the unknowns that are solved explicitly as they are there."""
+        """Return the probe at a point; `flag` is 1 while the initial system holds."""
         return cls(whole(problem.compiled), problem.p, at, flag, problem.unknowns(at, flag))
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """Arguments of the rows; what has no value counts as an ordinary number, so that only its own equation fails."""
+        """Arguments of the equations; unknowns that are not finite get an ordinary value, to tell failing equations apart."""
         known = np.where(np.isfinite(self.unknowns), self.unknowns, CAUSES.ordinary)
         return known, self.p, self.at.time, self.at.constants.vector, self.flag
 
     def failing(self) -> list[Row]:
-        """Rows that have no value by themselves."""
+        """Equations that are not finite for finite unknowns."""
         wrong = ~np.isfinite(self.whole.values(*self.arguments)[0])
         return [row for row, fails in zip(self.whole.rows, wrong, strict=True) if fails]
 
     def jacobian(self) -> np.ndarray:
-        """Jacobian of the equations by the unknowns that are solved for; entries that are rounding are 0."""
+        """Jacobian by the unknowns that are solved for; entries at round-off level are 0."""
         J, changed = (self.whole.jacobian(*at.arguments) for at in (self, replace(self, p=perturbed(self.p))))
-        return np.where(is_rounding(J, changed), 0.0, J)
+        return np.where(is_round_off(J, changed), 0.0, J)
 
     def with_parameters(self, places: Sequence[int], value: float) -> Probe:
-        """The same point with other parameters."""
+        """Return the probe with another value of some parameters."""
         p = self.p.copy()
         p[list(places)] = value
         return replace(self, p=p)
 
 
 def decisive_zeros(problem: Problem, rows: list[Row], matters: Callable[[Sequence[int]], bool]) -> list[str]:
-    """Return the parameters in some rows that are 0 and matter: single ones, or where none does alone, whole arrays.
+    """Return the parameters whose value 0 makes some equations fail: single ones, else whole arrays.
 
     Parameters
     ----------
     problem : Problem
         The model.
     rows : list of Row
-        Where they are looked for.
+        The equations.
     matters : callable
-        Whether the rows are in order with other values of the parameters at some places.
+        Return whether the equations are regular with other values of the parameters at some places.
     """
     own = problem.compiled.reduced.flat.parameters
     inside = {s.element_hash() for row in rows for s in ca.symvar(row.expression)}
@@ -85,14 +85,14 @@ def decisive_zeros(problem: Problem, rows: list[Row], matters: Callable[[Sequenc
 
 
 def zeros_text(names: list[str]) -> str:
-    """Say that some parameters are 0."""
+    """Return the message that some parameters must not be 0."""
     shown = " and ".join(f"`{name}`" for name in names[: CAUSES.shown])
     verb = "is" if len(names) == 1 else "are"
     return f"{shown} {verb} 0, which the equations do not allow. Give another value."
 
 
 def perturbed(p: np.ndarray) -> np.ndarray:
-    """Return parameters that are changed by rounding."""
+    """Return parameters with relative changes at round-off level."""
     return p * _changes(len(p))
 
 
@@ -101,12 +101,12 @@ def _changes(n: int) -> np.ndarray:
     return 1 + ROUNDING * np.random.default_rng(0).standard_normal(n)
 
 
-def is_rounding(entries: np.ndarray, beside: np.ndarray) -> np.ndarray:
-    """Return which entries parameters change altogether where they change by rounding.
+def is_round_off(entries: np.ndarray, perturbed: np.ndarray) -> np.ndarray:
+    """Return which entries of a Jacobian are round-off: perturbed parameters change them by their own size.
 
     Parameters
     ----------
-    entries, beside : arrays of the same shape
-        Of a Jacobian, and what they are for the changed parameters.
+    entries, perturbed : arrays of the same shape
+        Entries for the parameters, and for the perturbed ones.
     """
     return (entries != 0) & (np.abs(perturbed - entries) >= np.abs(entries))

@@ -17,26 +17,25 @@ from acausal.compiler.core_equations import core_square
 from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.pivot_scaling import scaled_to_pivots
-from acausal.solve.diagnosis.probe import ROUNDING, Probe, decisive_zeros, is_rounding, perturbed, zeros_text
+from acausal.solve.diagnosis.probe import ROUNDING, Probe, decisive_zeros, is_round_off, perturbed, zeros_text
 from acausal.solve.diagnosis.start_values import another_guess
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.sparse_blocks import Block, block_of
 
 CAUSES = POLICY.causes
-ANOTHER = "Replace one of them by an equation that says something new."
+ANOTHER = "Replace one of them by an independent equation."
 NO_INERTIA = (
-    " Or what multiplies it is 0 in one direction, as the moment of inertia of a thin rod about its own axis: give it another "
+    " Or its coefficient is 0 in one direction, as the moment of inertia of a thin rod about its own axis: give it another "
     "value."
 )
-SIDE_BY_SIDE = (
-    "Nothing divides a load between parts that hold the same side by side: take one of them out, or let one of them be "
-    "elastic."
+PARALLEL = (
+    "The load that parallel rigid parts share is statically indeterminate: remove one of them, or make one elastic."
 )
 
 
 def dependent_equations(problem: Problem, at: Point, flag: float = 0.0) -> str:
-    """Say which equations depend on each other at a point, and what they leave open; "" if none do.
+    """Return the message on linearly dependent equations at a point and the unknowns they leave open; "" if none are.
 
     Parameters
     ----------
@@ -61,50 +60,40 @@ def dependent_equations(problem: Problem, at: Point, flag: float = 0.0) -> str:
     what = ", ".join(open_[: CAUSES.shown]) + (f" and {more} more" if (more := len(open_) - CAUSES.shown) > 0 else "")
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:
-        return f"{zeros_text(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
+        return f"{zeros_text(zeros)}\nThe value 0 leaves {what} undetermined. The equations:\n{lines}"
     rates = [name.startswith("`der(") for name in open_]
     inertia = NO_INERTIA if any(rates) else ""
     if len(inside) > 1 and _dependent_around(probe):
-        if not all(rates):  # forces among them
-            remedy = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 else ANOTHER
-        else:
-            remedy = ANOTHER + inertia
-        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{remedy}"
+        statics = PARALLEL if len({row.origin.path for row in inside}) > 1 else ANOTHER
+        remedy = ANOTHER + inertia if all(rates) else statics
+        return f"these equations are dependent and leave {what} undetermined:\n{lines}\n{remedy}"
     if len(inside) > 1:
         return (
-            f"these equations do not determine {what}: near these values they depend on each other:\n{lines}\n"
-            "Give other guesses; if none helps, they say the same or contradict each other: replace one of them."
+            f"these equations are dependent near these values and leave {what} undetermined:\n{lines}\n"
+            "Give other guesses; if none helps, they are dependent or contradictory everywhere: replace one of them."
             + inertia
         )
     k = int(probe.whole.solved[_participants(right)[0]])
-    here = f"cannot be solved for {what} near {names[k]} = {probe.unknowns[k]:.4g}, because its slope probe is 0"
+    here = f"cannot be solved for {what} near {names[k]} = {probe.unknowns[k]:.4g}, because its slope there is 0"
     remedy = f"{another_guess(problem, k)}; if none helps, the equation may have no solution.{inertia}"
     return f"this equation {here}:\n{lines}\n{remedy}"
 
 
-def said_twice(problem: Problem, at: Point) -> str:
-    """As `dependent`, for equations that hold at the point, and that depend on each other beside it as well; "" for others.
-
-    A position in which motions branch is not meant.
-    """
-    return dependent_equations(problem, at) if _dependent_around(Probe.of(problem, at, 0.0)) else ""
-
-
 def _dependent_around(probe: Probe) -> bool:
-    """Whether equations that depend on each other at a point hold probe, and depend on each other beside it as well."""
+    """Return whether dependent equations hold at the point and are dependent around it: not only in a singular position."""
     left, _ = _null_vectors(probe)
     if not len(left):
         return False
     J = probe.whole.sensitivities(*probe.arguments)
     size = abs(J) @ (np.abs(probe.unknowns) + 1.0)
-    held = np.abs(probe.whole.values(*probe.arguments)[0][: len(size)]) <= POLICY.newton.consistent * size
+    hold = np.abs(probe.whole.values(*probe.arguments)[0][: len(size)]) <= POLICY.newton.consistent * size
     move = POLICY.ranks.motion * np.random.default_rng(0).standard_normal((2, len(probe.unknowns)))
-    beside = replace(probe, unknowns=probe.unknowns * (1.0 + move[0]) + move[1])
-    return bool(np.all(held[_participants(left)])) and len(_null_vectors(beside)[1]) >= len(left)
+    moved = replace(probe, unknowns=probe.unknowns * (1.0 + move[0]) + move[1])
+    return bool(np.all(hold[_participants(left)])) and len(_null_vectors(moved)[1]) >= len(left)
 
 
 def _null_vectors(probe: Probe) -> tuple[np.ndarray, np.ndarray]:
-    """Combinations of equations, and of unknowns, that vanish: shapes (k, equations), (k, unknowns)."""
+    """Left and right null vectors of the Jacobian: shapes (k, equations), (k, unknowns)."""
     solved = probe.whole.solved
     none = np.zeros((0, 0)), np.zeros((0, 0))
     if not 0 < len(solved) <= CAUSES.largest:
@@ -126,39 +115,40 @@ def _lengths(J: np.ndarray, axis: int) -> np.ndarray:
 
 
 def _participants(vectors: np.ndarray) -> list[int]:
-    """What takes part in the vectors, what weighs most first; what weighs the same but for rounding, in its own order."""
+    """Entries with a share in null vectors, by descending weight; equal weights, up to round-off, in their own order."""
     weight = np.linalg.norm(vectors, axis=0)
     weight = np.round(weight / np.max(weight), CAUSES.digits)
     return [int(k) for k in np.argsort(-weight, kind="stable") if weight[k] > CAUSES.weight]
 
 
 def undetermined(problem: Problem, at: Point) -> str:
-    """Say which equations say the same at a point and beside it, and what they leave open; "" if none do."""
-    sure = _regular_in_core(problem, at) or _pivots_hold(_without_rounding(problem, at))
-    return "" if sure else said_twice(problem, at)
+    """Return the message on equations that are dependent at and around a point; "" if the unknowns are determined."""
+    if _regular_in_core(problem, at) or _pivots_hold(_without_round_off(problem, at)):
+        return ""
+    return dependent_equations(problem, at) if _dependent_around(Probe.of(problem, at, 0.0)) else ""
 
 
 def _regular_in_core(problem: Problem, at: Point) -> bool:
-    """Whether the core has factors whose pivots are far from rounding, which is known in a tenth of the time."""
+    """Return whether the core has factors with pivots well above round-off: ten times cheaper than factors of SciPy."""
     least = problem.least_pivot(at)
     if least <= POLICY.ranks.rank:
         return False
     square = core_square(problem.compiled, tuple(range(problem.nz)))
     p = np.array([problem.p, perturbed(problem.p)])
     values = square.tape.rows(p, at.constants.vector, at.x, at.z, np.array([at.time]))
-    return not np.any(is_rounding(*values[:, problem.nz :]))
+    return not np.any(is_round_off(*values[:, problem.nz :]))
 
 
-def _without_rounding(problem: Problem, at: Point) -> scipy.sparse.csc_matrix:
-    """Jacobian of the algebraic equations; entries that are rounding are 0."""
+def _without_round_off(problem: Problem, at: Point) -> scipy.sparse.csc_matrix:
+    """Jacobian of the algebraic equations; entries at round-off level are 0."""
     inner, changed = _algebraic_block(problem.compiled), replace(problem, p=perturbed(problem.p))
     J, other = (inner.sparse(own.local(at).entries) for own in (problem, changed))
-    J.data[is_rounding(J.data, other.data)] = 0.0
+    J.data[is_round_off(J.data, other.data)] = 0.0
     return J
 
 
 def _pivots_hold(J: scipy.sparse.csc_matrix) -> bool:
-    """Whether no pivot is the rounding of its terms; equations without a value are not looked at."""
+    """Return whether all pivots exceed the round-off of their terms; equations that are not finite pass."""
     if not (J.shape[0] and np.all(np.isfinite(J.data))):
         return True
     scaled = scaled_to_pivots(J)

@@ -1,4 +1,4 @@
-"""What to do about values of unknowns at which equations fail: another guess, another start, or another law there."""
+"""Remedies for start values at which equations fail: another guess, another fixed value, or a law that holds there."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import casadi as ca
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars
 
-PIECEWISE = "say what holds there: piecewise((value, condition), ..., otherwise)."
+PIECEWISE = "state what holds there: piecewise((value, condition), ..., otherwise)."
 ELSEWHERE = f"Start elsewhere, or {PIECEWISE}"
 
 
 def value_remedy(problem: Problem, operand: Any) -> str:
-    """Say what to do where an expression has a value at the start that an equation does not allow.
+    """Return the remedy for an expression whose start value an equation does not allow.
 
     Parameters
     ----------
@@ -36,15 +36,15 @@ def value_remedy(problem: Problem, operand: Any) -> str:
 
 
 def another_guess(problem: Problem, unknown: int) -> str:
-    """Say how an unknown is given another guess, without the full stop."""
+    """Return the remedy of another guess for an unknown, without the full stop."""
     r = problem.compiled.reduced
-    told = r.flat.unknowns.guessed
-    begins = "" if unknown < len(told) and told[unknown] else " (without one it begins at 0)"
-    return f"Give another guess of `{r.names[unknown]}`, variable(..., start=1) or guess(...){begins}"
+    guessed = r.flat.unknowns.guessed
+    default = "" if unknown < len(guessed) and guessed[unknown] else " (the default guess is 0)"
+    return f"Give another guess of `{r.names[unknown]}`, variable(..., start=1) or guess(...){default}"
 
 
 def _fixed(problem: Problem) -> set[int]:
-    """Unknowns whose values at the start are fixed."""
+    """Hashes of the unknowns whose start values are fixed."""
     conditions = problem.compiled.reduced.flat.equations.initial
     alone = [ca.symvar(c.residual) for c in conditions if c.text != "initial equation"]
     return {symbols[0].element_hash() for symbols in alone if len(symbols) == 1}

@@ -1,4 +1,4 @@
-"""Conditions that have no value, such as sqrt(x) > 1 where x is negative, so that nothing tells what holds."""
+"""Conditions that are undefined at a point, such as sqrt(x) > 1 for negative x."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from acausal.solve.diagnosis.not_finite import undefined_equations
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
-REMEDY = "Nothing tells whether it holds. Compare what always has a value, such as x > 1 in place of sqrt(x) > 1."
+REMEDY = (
+    "It is neither true nor false. Compare expressions that are always defined, such as x > 1 instead of sqrt(x) > 1."
+)
 NO_VALUE = "a condition has no value; check what it divides by, and the arguments of sqrt, log, acos"
 
 
 def undefined_conditions(problem: Problem, at: Point, guards: Iterable[int]) -> str:
-    """Say which of some conditions without a value matter at a point, "" if none does; the time is not told.
+    """Return the message on undefined conditions that matter at a point, without the time; "" if none does.
 
     Parameters
     ----------
@@ -25,7 +27,7 @@ def undefined_conditions(problem: Problem, at: Point, guards: Iterable[int]) -> 
     at : Point
         Where.
     guards : iterable of int
-        Conditions that have no value there.
+        Conditions that are undefined there.
     """
     if not any(_matters(problem, at, k) for k in guards):
         return ""
@@ -33,7 +35,7 @@ def undefined_conditions(problem: Problem, at: Point, guards: Iterable[int]) -> 
 
 
 def _matters(problem: Problem, at: Point, guard: int) -> bool:
-    """Whether an equation says something else where a condition holds; what acts at an instant always matters."""
+    """Return whether any equation depends on a condition; conditions that trigger events always matter."""
     compiled = problem.compiled
     if guard >= compiled.guards.n_switches:
         return True

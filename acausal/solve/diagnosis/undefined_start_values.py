@@ -1,4 +1,4 @@
-"""Start values that are no numbers, and the conditions that compare them."""
+"""Start values that are not finite, and the conditions that compare them."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ SHOWN = POLICY.causes.shown
 
 
 def undefined_start_values(problem: Problem, at: Point) -> str:
-    """Say which start values are no numbers, why, and which conditions compare them; "" if all are numbers.
+    """Return the message on start values that are not finite and on conditions that compare them; "" if all are finite.
 
-    A discrete variable may be infinite: the instant of an event that never comes.
+    A discrete variable may be infinite: the time of an event that never occurs.
 
     Parameters
     ----------
@@ -55,14 +55,16 @@ def undefined_start_values(problem: Problem, at: Point) -> str:
         for row in whole(problem.compiled).rows
         if row.kind == EVENT and any(s.element_hash() in by_symbol for s in ca.symvar(row.expression))
     )
-    head = f"at t = {at.time:.6g} s {'this start value is' if len(lines) == 1 else 'these start values are'} no number:"
-    held = ["Nothing tells whether these conditions hold then:", *list(conditions)[:SHOWN]] if conditions else []
+    head = (
+        f"at t = {at.time:.6g} s {'this start value is' if len(lines) == 1 else 'these start values are'} not a number:"
+    )
+    compared = ["These conditions are undefined then:", *list(conditions)[:SHOWN]] if conditions else []
     last = list(filter(None, remedies)) or [f"Give {'it a number' if len(lines) == 1 else 'them numbers'}, start=0."]
-    return "\n".join([head, *list(lines)[:SHOWN], *held, *last])
+    return "\n".join([head, *list(lines)[:SHOWN], *compared, *last])
 
 
 def _discretes(problem: Problem, starts: Mapping[int, Any]) -> Iterator[tuple[str, Row]]:
-    """Yield names and start values of discrete variables, which are given by the hashes of their symbols."""
+    """Yield names and start values of discrete variables, specified by the hashes of their symbols."""
     for component in walk(problem.compiled.tree):
         for field, declared in component.fields.items():
             if isinstance(declared, Variable) and declared.causality == "discrete":
@@ -72,7 +74,7 @@ def _discretes(problem: Problem, starts: Mapping[int, Any]) -> Iterator[tuple[st
 
 
 def _unknowns(problem: Problem, places: Iterable[int]) -> Iterator[tuple[str, Row]]:
-    """Yield names and start values of states and algebraic unknowns, which are given by their places among these."""
+    """Yield names and start values of states and algebraic unknowns, specified by their places."""
     reduced = problem.compiled.reduced
     starts, own = scalars(reduced.flat.unknowns.start), (*reduced.plan.states, *reduced.plan.algebraic)
     for k in (own[place] for place in places):

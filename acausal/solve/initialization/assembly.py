@@ -12,7 +12,7 @@ from acausal.errors import InitializationError
 from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.loop_directions import differing
+from acausal.solve.diagnosis.loop_directions import nonparallel_directions
 from acausal.solve.initialization.fixed_states import giving, soft
 from acausal.solve.initialization.levenberg_marquardt import Matrix, Residuals, descend
 from acausal.solve.initialization.rank import least_norm
@@ -231,7 +231,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
             if open_:
                 through = f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop"
                 lines.append(f"  {loop.a} and {loop.b} ({loop.where}) {text}; {through}")
-                directions[differing(compiled, loop.parts)] = None
+                directions[nonparallel_directions(compiled, loop.parts)] = None
                 break
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base

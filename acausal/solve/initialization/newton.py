@@ -14,7 +14,7 @@ from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.diagnosis.initialization import lost_text, worst_lines
+from acausal.solve.diagnosis.initialization import no_convergence_text, worst_lines
 from acausal.solve.initialization.rank import factored
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
@@ -96,7 +96,7 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         return problem.values(at.with_y(y), flag)[rows] - offset
 
     def lost(value: np.ndarray) -> Lost:
-        text = lost_text(problem.compiled, value, system.rows, system.surplus, at.time)
+        text = no_convergence_text(problem.compiled, value, system.rows, system.surplus, at.time)
         return Lost(text, at.with_y(y), flag, "\n".join(worst_lines(problem.compiled, value, system.rows)))
 
     value = residual(y)

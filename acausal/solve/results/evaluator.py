@@ -14,7 +14,7 @@ from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.point import Rows
 from acausal.solve.results.prescribed import Known
 
-REMEDY = "Say what holds there: piecewise((value, condition), ..., otherwise)."
+REMEDY = "State what holds there: piecewise((value, condition), ..., otherwise)."
 
 
 class Evaluator:

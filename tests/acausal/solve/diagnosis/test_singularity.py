@@ -1,4 +1,4 @@
-"""Equations that say the same are refused, whatever the states; a position that is singular by itself is not."""
+"""Dependent equations are refused, whatever the states; a position that is singular by itself is not."""
 
 from __future__ import annotations
 
@@ -83,11 +83,11 @@ class BesideStates(Twins):
 @pytest.mark.parametrize("model", [Twins, OneRatio, Turning, Rounded, Split, BesideStates])
 @pytest.mark.parametrize("method", ["auto", "idas"])
 def test_gears_side_by_side_are_named(model: type[Model], method: str) -> None:
-    with pytest.raises(ac.InitializationError, match="say the same") as caught:
+    with pytest.raises(ac.InitializationError, match="are dependent and leave") as caught:
         ac.simulate(model(), stop_time=2, method=method)
     assert "g1 (Gear)" in str(caught.value)
     assert "g2 (Gear)" in str(caught.value)
-    assert "take one of them out, or let one of them be elastic" in str(caught.value)
+    assert "remove one of them, or make one elastic" in str(caught.value)
 
 
 class TwinsOnALoop(GearedLoop):
@@ -192,9 +192,9 @@ class RoundedBeside(RoundedSums):
 @pytest.mark.parametrize("model", [Sums, Rates, Curved, RoundedSums, RoundedBeside])
 @pytest.mark.parametrize("method", ["auto", "idas"])
 def test_sums_are_refused(model: type[Model], method: str) -> None:
-    with pytest.raises(ac.InitializationError, match=r"say the same, so that nothing determines `(x|der\(x\))`, "):
+    with pytest.raises(ac.InitializationError, match=r"are dependent and leave `(x|der\(x\))`, "):
         ac.simulate(model(), stop_time=2, method=method)
-    with pytest.raises(ac.InitializationError, match="say the same"):
+    with pytest.raises(ac.InitializationError, match="are dependent and leave"):
         ac.linearize(model())
 
 
@@ -224,7 +224,7 @@ class Touching(Sums):
 
 @pytest.mark.parametrize("model", [Later, LaterBeside, Touching])
 def test_a_run_ends_where_equations_come_to_say_the_same(model: type[Model]) -> None:
-    with pytest.raises(ac.SimulationError, match=r"stopped at t = 0\.5 s: these equations say the same") as caught:
+    with pytest.raises(ac.SimulationError, match=r"stopped at t = 0\.5 s: these equations are dependent") as caught:
         ac.simulate(model(), stop_time=1, intervals=10)
     result = caught.value.result
     assert isinstance(result, ac.Result)
@@ -267,7 +267,7 @@ class Turned(Model):
 
 @pytest.mark.parametrize("method", ["auto", "idas"])
 def test_a_discrete_variable_leaves_unknowns_open(method: str) -> None:
-    with pytest.raises(ac.SimulationError, match=r"t = 0\.5 s: .*say the same"):
+    with pytest.raises(ac.SimulationError, match=r"t = 0\.5 s: .*are dependent and leave"):
         ac.simulate(Turned(), stop_time=1, method=method)
 
 
