@@ -11,7 +11,7 @@ from acausal.compiler import CompiledModel
 from acausal.errors import ExportError
 from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
-from acausal.solve.initialization.initial_modes import go_on, start
+from acausal.solve.initialization.initial_modes import leave_singular_start, start
 from acausal.solve.initialization.initialize import initial_system
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.rank import rank
@@ -64,7 +64,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     """
     begun = start(problem, time, later, initial, decides=False)
     at = begun.point
-    if go_on(problem, begun) is not at:
+    if leave_singular_start(problem, begun) is not at:
         raise ExportError(
             f"the model starts in a singular position, t = {time:g} s, from where equations alone lead no further. Let it "
             "start beside that."

@@ -22,7 +22,7 @@ from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope
 from acausal.solve.initialization.independent_constraints import smallest_singular_value
-from acausal.solve.initialization.initial_events import opening
+from acausal.solve.initialization.initial_events import first_point
 from acausal.solve.initialization.tangent_space import Elimination, tangent
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -130,7 +130,7 @@ def linearize(
     check_number("time", time)
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
-    at = opening(problem, time, how)
+    at = first_point(problem, time, how)
     _refuse_flat(problem, at, how == "steady")
     inputs, nx = _inputs(compiled), compiled.nx
     slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in inputs]))

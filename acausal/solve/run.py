@@ -27,7 +27,7 @@ from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
-from acausal.solve.initialization.initial_point import Beginning, begin
+from acausal.solve.initialization.initial_point import InitialPoint, initial_point
 from acausal.solve.initialization.initialize import Start
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
@@ -132,10 +132,10 @@ class _Done:
         return (self.course.first or self.at) if self.at is self.begun.point else self.begun.point
 
 
-def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, Beginning]:
+def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, InitialPoint]:
     problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time), runs=True)
     plan = _plan(problem, task)
-    return problem, plan, begin(problem, task.start_time, plan.inside, task.initial)
+    return problem, plan, initial_point(problem, task.start_time, plan.inside, task.initial)
 
 
 def _plan(problem: Problem, task: Task) -> _Plan:
@@ -153,7 +153,7 @@ def _plan(problem: Problem, task: Task) -> _Plan:
     return _Plan(times, breaks, _breaks([*breaks, *found], begin, end))
 
 
-def _integrated(problem: Problem, plan: _Plan, beginning: Beginning, task: Task) -> _Done:
+def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Task) -> _Done:
     """Integrate, again where states turn out to be much smaller than they were taken for."""
     at, span = beginning.at, task.stop_time - task.start_time
     settings = Settings(

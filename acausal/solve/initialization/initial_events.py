@@ -1,4 +1,4 @@
-"""What happens at the very instant at which a run starts."""
+"""Event iteration at the start time."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.instant import Cycling, Instants
-from acausal.solve.initialization.initial_modes import places_text, start
+from acausal.solve.initialization.initial_modes import origins_text, start
 from acausal.solve.initialization.steady_rotation import is_steady
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
-SPAN = 1.0  # s: conditions by the clock that change later do not matter at the start
+SPAN = 1.0  # s, horizon of time events: later ones do not matter at the start
 
 
-class Opening:
+class InitialEvents:
     """Events at the start.
 
     Parameters
@@ -26,7 +26,7 @@ class Opening:
     problem : Problem
         The model.
     time, later : float
-        Start, and a time before conditions of time alone change next, in s.
+        Start time, and a time before the next time event, in s.
     """
 
     def __init__(self, problem: Problem, time: float, later: float) -> None:
@@ -40,31 +40,31 @@ class Opening:
         Raises
         ------
         InitializationError
-            If what happens does not settle.
+            If the event iteration does not converge.
         """
         at, acts = self.agenda.at_start(at, self.agenda.on(self.later), self.instants)
-        return self._settled(at, acts)
+        return self._after_events(at, acts)
 
-    def refuse_passing(self, at: Point) -> None:
-        """Raise InitializationError where an equilibrium does not last: what its states set off at once moves it.
+    def refuse_transient(self, at: Point) -> None:
+        """Raise InitializationError if an event that the states trigger at once ends an equilibrium.
 
-        What the clock or a planned instant sets off may well move it.
+        Time events and scheduled events may end it.
         """
         guards = self.problem.compiled.guards
         before, _ = self.agenda.at_start(at, self.agenda.on(self.later), self.instants)
         if not len(before.mode):
             return
-        planned = {k for k, _ in guards.plans}
+        scheduled = {k for k, _ in guards.plans}
         holds = self.instants.holds(before, np.zeros(len(before.mode), dtype=bool))
         begins = holds & ~before.mode & ~self.instants.is_switch
-        acts = [k for k in self.instants.watched[begins].tolist() if k not in planned]
-        if acts and not is_steady(self.problem, self._settled(before, [])):
+        acts = [k for k in self.instants.watched[begins].tolist() if k not in scheduled]
+        if acts and not is_steady(self.problem, self._after_events(before, [])):
             raise InitializationError(
-                f"the equilibrium at t = {at.time:g} s does not last, as this condition is true there, and what it does sets "
-                f"off a motion:\n{places_text(self.problem.compiled, acts)}\nGive guesses near another one, or hold the model."
+                f"the equilibrium at t = {at.time:g} s does not last: this condition is true there, and its event starts "
+                f"a motion:\n{origins_text(self.problem.compiled, acts)}\nGive guesses near another one, or hold the model."
             )
 
-    def _settled(self, at: Point, acts: list[int]) -> Point:
+    def _after_events(self, at: Point, acts: list[int]) -> Point:
         try:
             return self.instants.settle(at, fired=acts)[0]
         except Cycling as cycling:
@@ -72,7 +72,7 @@ class Opening:
             raise InitializationError(text) from None
 
 
-def opening(problem: Problem, time: float, initial: str) -> Point:
+def first_point(problem: Problem, time: float, initial: str) -> Point:
     """Return the first point of runs.
 
     Parameters
@@ -80,20 +80,20 @@ def opening(problem: Problem, time: float, initial: str) -> Point:
     problem : Problem
         The model.
     time : float
-        When they start, in s.
+        Start time in s.
     initial : "fixed", "guesses" or "steady"
         See `initialize`.
 
     Raises
     ------
     InitializationError
-        If no values are found, or what happens at the start does not settle.
+        If there are no consistent values, or the event iteration does not converge.
     """
     guards, p, stop = problem.compiled.guards, problem.p, time + SPAN
     changes = [*guards.breaks(p)[0].tolist(), *clock_times(problem.compiled, p, time, stop)]
     later = (time + min((t for t in changes if time < t < stop), default=stop)) / 2
     at = start(problem, time, later, initial).point
-    opened = Opening(problem, time, later)
+    events = InitialEvents(problem, time, later)
     if initial == "steady":
-        opened.refuse_passing(at)
-    return opened.after(at)
+        events.refuse_transient(at)
+    return events.after(at)

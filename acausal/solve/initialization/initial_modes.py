@@ -128,7 +128,7 @@ def _other(found: np.ndarray, head: np.ndarray) -> np.ndarray | None:
 
 def _no_switches(compiled: CompiledModel, time: float, tried: ModeSearch) -> str:
     """Say which conditions find no rest at the start."""
-    places = places_text(compiled, tried.changing or tried.switches)
+    places = origins_text(compiled, tried.changing or tried.switches)
     if tried.cycle and len(places.splitlines()) == 1:
         return (
             f"at t = {time:g} s this condition contradicts its own consequence, whether it is true or false:\n"
@@ -186,7 +186,7 @@ def _initial_mode(problem: Problem, at: Point, doubtful: np.ndarray, head: np.nd
     return found
 
 
-def go_on(problem: Problem, start: Start) -> Point:
+def leave_singular_start(problem: Problem, start: Start) -> Point:
     """Leave a singular position, where the equations do not determine how to continue; any other point stays."""
     if not start.redundancy.singular:
         return start.point
@@ -195,7 +195,7 @@ def go_on(problem: Problem, start: Start) -> Point:
     return algebraic(problem, problem.completed(at))
 
 
-def places_text(compiled: CompiledModel, guards: list[int]) -> str:
+def origins_text(compiled: CompiledModel, guards: list[int]) -> str:
     """List where guards are stated, one per line."""
     origins = dict.fromkeys(str(compiled.guards.guards[k].origin) for k in guards)
     return "\n".join(f"  {origin}" for origin in list(origins)[:5])

@@ -138,7 +138,7 @@ def test_a_brake_rests_where_it_holds_alone():
     for run in (ac.simulate, ac.linearize):
         how = {"stop_time": 1.0} if run is ac.simulate else {}
         with pytest.raises(
-            ac.InitializationError, match=r"does not last, as this condition is true there(.|\n)*dry_friction\.py"
+            ac.InitializationError, match=r"does not last: this condition is true there(.|\n)*dry_friction\.py"
         ):
             run(compiled, initial="steady", parameters={"brake.tau_static": 2.0}, **how)
 

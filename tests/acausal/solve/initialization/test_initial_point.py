@@ -1,4 +1,4 @@
-"""The beginning of a run, which the next one may take over, changes no bit of it."""
+"""The initial point of a run, which the next one may share, changes no bit of it."""
 
 from __future__ import annotations
 
@@ -65,10 +65,10 @@ def test_a_run_again_is_the_same_to_the_last_bit():
         assert result.stats.steps == first.stats.steps
 
 
-def test_seconds_of_the_beginning_count_in_every_run():
+def test_seconds_of_the_initialization_count_in_every_run():
     compiled = ac.compile(FourBar())
     runs = [ac.simulate(compiled, stop_time=0.01, intervals=1) for _ in range(2)]
-    (first,) = compiled.kept[initial_point.kept.__wrapped__].values()
+    (first,) = compiled.kept[initial_point.shared_point.__wrapped__].values()
     assert all(run.stats.solve_seconds > first.seconds > 0 for run in runs)
 
 
