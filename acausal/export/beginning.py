@@ -62,7 +62,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     ExportError
         If it starts in a singular position: equations do not tell how it goes on.
     """
-    begun = start(problem, time, later, initial, decides=False)
+    begun = start(problem, time, later, initial, decided_later=False)
     at = begun.point
     if leave_singular_start(problem, begun) is not at:
         raise ExportError(

@@ -10,7 +10,7 @@ from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
 from acausal.solve.checks.separation import meeting_ahead
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope, undefined_equations
-from acausal.solve.initialization.newton import Lost, algebraic
+from acausal.solve.initialization.newton import NoConvergence, algebraic
 from acausal.solve.initialization.redundancy import Redundancy, is_singular
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
@@ -91,7 +91,7 @@ def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
             return found
         try:
             algebraic(problem, later)
-        except Lost as lost:
+        except NoConvergence as lost:
             return f"from there on these equations have no solution:\n{lost.worst}\n{LIMITS}"
     return ""
 

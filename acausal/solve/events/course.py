@@ -24,7 +24,7 @@ from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.rests import ends_of_rests
 from acausal.solve.events.sampling import Sampling
-from acausal.solve.initialization.newton import Lost
+from acausal.solve.initialization.newton import NoConvergence
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
@@ -244,7 +244,7 @@ class Course:
         except Cycling as cycling:
             raise Chattering(self.integrator.compiled, at.time, cycling.guards, "switch back and forth") from None
         except InitializationError as error:
-            why = cause(self.integrator.problem, error.at) if isinstance(error, Lost) else ""
+            why = cause(self.integrator.problem, error.at) if isinstance(error, NoConvergence) else ""
             raise Failure(at.time, f"the equations have no solution after an event: {why or error}") from None
         if changed and (text := undetermined(self.integrator.problem, new)):
             raise Failure(at.time, text)

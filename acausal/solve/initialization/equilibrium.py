@@ -29,7 +29,7 @@ from acausal.solve.problem import Problem
 REST = POLICY.rest
 
 
-class Restless(InitializationError):
+class NoEquilibrium(InitializationError):
     """Nothing comes to rest; `at` is where the motion leads."""
 
     def __init__(self, text: str, at: Point) -> None:
@@ -73,7 +73,7 @@ class Equilibrium(Linearizer):
             self.linearized(self.guess)  # the cause may be there
             nearly = self._nearly(relaxed)
             if not self._is_steady(nearly):
-                raise Restless(motion_text(self.problem, nearly), relaxed)
+                raise NoEquilibrium(motion_text(self.problem, nearly), relaxed)
             found = self.linearized(nearly)
             rate = self._growing(found)[0]
         if rate:

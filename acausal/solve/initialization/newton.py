@@ -24,7 +24,7 @@ NEWTON = POLICY.newton
 Solver = Callable[[np.ndarray], np.ndarray]
 
 
-class Lost(InitializationError):
+class NoConvergence(InitializationError):
     """The iteration found no solution; `at` is where it ended, `flag` is 1 for the initial system, `worst` what does not hold."""
 
     def __init__(self, text: str, at: Point, flag: float, worst: str = "") -> None:
@@ -95,9 +95,9 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     def residual(y: np.ndarray) -> np.ndarray:
         return problem.values(at.with_y(y), flag)[rows] - offset
 
-    def lost(value: np.ndarray) -> Lost:
+    def lost(value: np.ndarray) -> NoConvergence:
         text = no_convergence_text(problem.compiled, value, system.rows, system.surplus, at.time)
-        return Lost(text, at.with_y(y), flag, "\n".join(worst_lines(problem.compiled, value, system.rows)))
+        return NoConvergence(text, at.with_y(y), flag, "\n".join(worst_lines(problem.compiled, value, system.rows)))
 
     value = residual(y)
     if not np.all(np.isfinite(value)):
@@ -157,7 +157,7 @@ def algebraic(problem: Problem, at: Point) -> Point:
         return found
     try:
         return newton(problem, _algebraic(problem.compiled), at, 0.0)
-    except Lost:
+    except NoConvergence:
         found = _by_parts(problem, at)
         if found is None:
             raise

@@ -13,7 +13,7 @@ from acausal.policy import POLICY
 from acausal.solve.initialization.assembly import close, polished, tighten
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, partition_is_valid
 from acausal.solve.initialization.equilibrium_test import kinematic, meters
-from acausal.solve.initialization.newton import Lost, algebraic
+from acausal.solve.initialization.newton import NoConvergence, algebraic
 from acausal.solve.initialization.rank import factored
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -162,7 +162,7 @@ class Linearizer:
         at = algebraic(self.problem, at)
         local = self.problem.local(at)
         if not (np.all(np.isfinite(local.value)) and np.all(np.isfinite(local.jacobian.data))):
-            raise Lost("the equations have no value there", at, 0.0)
+            raise NoConvergence("the equations have no value there", at, 0.0)
         return Linearized(at, local.value, local.jacobian.tocsc(), self.problem.nominal)
 
     def closed(self, at: Point) -> Point:

@@ -231,14 +231,14 @@ def test_steady_start_of_a_heated_tank() -> None:
 
 
 def test_cosine_law_that_cannot_rest_is_told() -> None:
-    class Restless(Model):
+    class NoEquilibrium(Model):
         x: Scalar = variable("state")
 
         def equations(self):
             yield der(self.x) == 2 + cos(self.x)
 
     with pytest.raises(ac.InitializationError, match=r"der\(x\) = 0: off by"):
-        ac.simulate(Restless(), stop_time=1, initial="steady")
+        ac.simulate(NoEquilibrium(), stop_time=1, initial="steady")
 
 
 class Turned(Model):

@@ -123,5 +123,5 @@ class Contrary(Model):
 def test_what_no_assignment_fits_is_refused_with_the_conditions_that_change():
     with pytest.raises(ac.SimulationError, match=r"(?s)t = 0\.5 s events repeat without end.*switch back and forth"):
         ac.simulate(Contrary(), stop_time=1.0)
-    with pytest.raises(ac.InitializationError, match=r"(?s)no switches fit.*after 4 rounds"):
+    with pytest.raises(ac.InitializationError, match=r"(?s)no consistent positions.*after 4 iterations"):
         ac.simulate(Contrary(), stop_time=1.0, parameters={"late": -1.0})
