@@ -13,7 +13,7 @@ from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.loop_directions import nonparallel_directions
-from acausal.solve.initialization.fixed_states import giving, soft
+from acausal.solve.initialization.fixed_states import fixing, soft
 from acausal.solve.initialization.levenberg_marquardt import Matrix, Residuals, descend
 from acausal.solve.initialization.rank import least_norm
 from acausal.solve.point import Point
@@ -128,13 +128,7 @@ def _are_many(rows: list[int]) -> bool:
 
 
 def _taken_up(
-    problem: Problem,
-    at: Point,
-    rows: list[int],
-    free: np.ndarray,
-    soft: np.ndarray,
-    linear: bool,
-    sizes: np.ndarray,
+    problem: Problem, at: Point, rows: list[int], free: np.ndarray, soft: np.ndarray, linear: bool, sizes: np.ndarray
 ) -> tuple[Point, float] | None:
     """Close one level near the guesses; where it misses by little without the soft states, these change as little as possible.
 
@@ -264,7 +258,7 @@ def _open_head(time: float, n: int, fixed: bool) -> str:
 def soft_parts(compiled: CompiledModel, held: np.ndarray) -> dict[int, Component]:
     """Components whose soft conditions give states, by these."""
     conditions, nz = compiled.reduced.flat.equations.initial, compiled.nz
-    of = {state: conditions[row - nz].origin.path for row, state in giving(compiled).items() if row in soft(compiled)}
+    of = {state: conditions[row - nz].origin.path for row, state in fixing(compiled).items() if row in soft(compiled)}
     parts = {part._path: part for part in walk(compiled.tree)}
     return {state: parts[of[state]] for state in np.intersect1d(held, list(of)).astype(int).tolist()}
 

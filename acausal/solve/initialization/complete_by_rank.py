@@ -59,7 +59,7 @@ def closed_guess(problem: Problem, at: Point, given: Mapping[int, int]) -> tuple
     return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy
 
 
-def ranked(
+def complete_by_rank(
     problem: Problem, at: Point, direct: Mapping[int, int], conditions: list[int], refuse: bool, flag: float = 1.0
 ) -> InitialSystem:
     """Complete the initial system by the ranks of its Jacobian.

@@ -1,4 +1,4 @@
-"""Consistent initial values: a damped Newton iteration on the initial system, in the user's words where it fails."""
+"""Consistent initial values: choose the initial system and solve it by a damped Newton iteration."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from acausal.policy import POLICY
 from acausal.solve.diagnosis.conflicts import contradiction
 from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.block_solve import by_blocks
-from acausal.solve.initialization.complete_by_rank import closed_guess, ranked
+from acausal.solve.initialization.complete_by_rank import closed_guess, complete_by_rank
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, independent_states
 from acausal.solve.initialization.equilibrium import rest, rotation
-from acausal.solve.initialization.fixed_states import flag_matters, giving, lasting, with_direct
-from acausal.solve.initialization.newton import InitialSystem, algebraic, follow, newton, reach
+from acausal.solve.initialization.fixed_states import fixing, steady_conditions, uses_initial_flag, with_fixed_states
+from acausal.solve.initialization.newton import InitialSystem, algebraic, homotopy, newton, residual_scale
 from acausal.solve.initialization.redundancy import Redundancy
 from acausal.solve.initialization.steady_rotation import turning_states
 from acausal.solve.point import Point
@@ -28,19 +28,19 @@ from acausal.solve.problem import Problem
 from acausal.structure import complete
 
 INITIAL = ("fixed", "guesses", "steady")
-TURNING = "turning"  # what "steady" is where nothing rests
+TURNING = "turning"  # steady rotation: "steady" of a model without equilibrium
 
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Where a run starts, and what was found there about its loops.
+    """Consistent start of a run, with the ranks of its loop constraints.
 
     Attributes
     ----------
     point : Point
         Consistent values.
     redundancy : Redundancy
-        Constraints that are dropped.
+        Redundant constraints.
     loops : Problem or None
         The model, if it has loops.
     """
@@ -51,11 +51,11 @@ class Start:
 
     @cached_property
     def independent_states(self) -> tuple[str, ...]:
-        """Names of the states that do not follow from others; none where there are no loops."""
+        """Names of the independent states; none without loops."""
         return independent_states(self.loops, self.point) if self.loops else ()
 
     def found(self, compiled: CompiledModel) -> AtStart:
-        """Return what a report says about it."""
+        """Return the entries of a report."""
         dropped = (k for k, row in enumerate(compiled.constraints.closures) if row in self.redundancy.dropped)
         return AtStart(tuple(dropped), self.redundancy.singular, self.independent_states)
 
@@ -72,13 +72,13 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     head : array
         Switches at the start, and discrete variables.
     initial : "fixed", "guesses", "steady" or TURNING
-        What to do with states that no condition determines: refuse, take their guesses, find those at which all
+        How states are determined that no condition fixes: not at all, which is an error; by their guesses; so that all
         derivatives vanish, or all but those of cyclic coordinates.
 
     Raises
     ------
     InitializationError
-        If conditions are missing or contradict each other, or no solution is found.
+        If conditions are missing or contradictory, or no solution is found.
     """
     compiled, loops = problem.compiled, bool(problem.compiled.constraints.size)
     at, redundancy = first_guess(problem, time, head), Redundancy()
@@ -88,19 +88,19 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         at = rest(problem, at, first) if initial == "steady" else rotation(problem, at)
     else:
         if loops:
-            system, at, redundancy = _ranked(problem, at, initial)
+            system, at, redundancy = _chosen_by_rank(problem, at, initial)
         else:
             local = problem.local(at, 1.0)
-            system = _system(problem, _told(problem, at, local), initial)
-            at = with_direct(problem, system.given, at, local)
+            system = _system(problem, _with_algebraic(problem, at, local), initial)
+            at = with_fixed_states(problem, system.fixing, at, local)
         try:
             at = _solve(problem, system, at)
         except InitializationError:
-            # Where only forces of a singular position lack a value, the closed loops alone determine how to leave that position.
+            # In a singular position forces may be undefined; the closed loops alone determine how to leave it.
             if not (redundancy.singular and _states_suffice(problem, system)):
                 raise
-    # The conditions of the initial system no longer hold; the states stay, the rest follows.
-    if flag_matters(compiled):
+    # The equations of the run replace those of the initial system: the states stay, algebraic unknowns follow.
+    if uses_initial_flag(compiled):
         at = algebraic(problem, at)
     if not loops:
         return Start(at)
@@ -109,7 +109,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
 
 
 def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
-    """Return the equations that determine a start, at the values that were found for it.
+    """Return the initial system that determines a start, chosen at its values.
 
     Parameters
     ----------
@@ -118,23 +118,23 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     at : Point
         Consistent values at the start.
     initial : str
-        As of `initialize`; in equilibrium derivatives take part as conditions.
+        As of `initialize`; derivatives count as conditions in equilibrium.
     """
     if not problem.compiled.constraints.size and initial != "steady":
         return _system(problem, problem.local(at, 1.0), initial)
     steady = initial == "steady"
-    given = giving(problem.compiled).items()
-    first = {state: row for row, state in reversed(given) if not steady or row in lasting(problem.compiled)}
-    turns = turning_states(problem, at) if steady else []
-    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady), turns)
+    fixed = fixing(problem.compiled).items()
+    first = {state: row for row, state in reversed(fixed) if not steady or row in steady_conditions(problem.compiled)}
+    cyclic = turning_states(problem, at) if steady else []
+    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady), cyclic)
 
 
-def _told(problem: Problem, at: Point, local: Local) -> Local:
-    """Return the equations where they tell which unknowns the conditions depend on: with algebraic unknowns that are solved.
+def _with_algebraic(problem: Problem, at: Point, local: Local) -> Local:
+    """Return the equations with algebraic unknowns solved for, so that the Jacobian shows what conditions depend on.
 
-    A velocity that a condition resolves in the world depends on that of the body by the orientation.
+    A velocity resolved in the world, for example, depends on that in the frame of the body through the orientation.
     """
-    if len(giving(problem.compiled)) == problem.compiled.conditions.numel():
+    if len(fixing(problem.compiled)) == problem.compiled.conditions.numel():
         return local
     try:
         return problem.local(algebraic(problem, at), 1.0)
@@ -148,8 +148,8 @@ def first_guess(problem: Problem, time: float, head: np.ndarray) -> Point:
     return Point(time, y[: problem.nx], y[problem.nx :], problem.compiled.layout.begin(head, problem.feedback))
 
 
-def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, Point, Redundancy]:
-    """Close the loops, and choose the initial system from there by ranks."""
+def _chosen_by_rank(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, Point, Redundancy]:
+    """Close the loops, then choose the initial system by ranks."""
     compiled = problem.compiled
     at, redundancy, direct = _closed(problem, at)
     try:
@@ -164,49 +164,54 @@ def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, P
 
 
 def _by_ranks(
-    problem: Problem, at: Point, direct: dict[int, int], initial: str, flag: float = 1.0, turns: list[int] | None = None
+    problem: Problem,
+    at: Point,
+    direct: dict[int, int],
+    initial: str,
+    flag: float = 1.0,
+    cyclic: list[int] | None = None,
 ) -> InitialSystem:
-    """Choose the initial system by ranks at a point where the loops are closed; rates of `turns` need not vanish."""
+    """Choose the initial system by ranks at a point with closed loops; rates of `cyclic` states need not vanish."""
     nx, nz = problem.nx, problem.nz
     others = [row for row in range(nz, nz + problem.compiled.conditions.numel()) if row not in direct]
     if initial == "steady":
-        others += [k - nx for k in range(nx) if k not in (turns or ())]
-    return ranked(problem, at, direct, others, initial == "fixed", flag)
+        others += [k - nx for k in range(nx) if k not in (cyclic or ())]
+    return complete_by_rank(problem, at, direct, others, initial == "fixed", flag)
 
 
 def _states_suffice(problem: Problem, system: InitialSystem) -> bool:
-    """Whether every condition gives a state by itself."""
+    """Return whether each condition fixes a state by itself."""
     conditions = set(system.rows[system.rows >= problem.nz].tolist())
     return not system.surplus.size and conditions <= {row for row, _ in system.direct}
 
 
 def _sparse(problem: Problem, at: Point) -> Point | None:
-    """Solve for derivatives of 0 with sparse factors, which suits long chains; None where that finds nothing."""
+    """Solve for vanishing derivatives with sparse factors, which suits long chains; None if there is no solution."""
     try:
-        system, at, _ = _ranked(problem, at, "steady")
+        system, at, _ = _chosen_by_rank(problem, at, "steady")
         return _solve(problem, system, at)
     except InitializationError:
         return None
 
 
 def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, int]]:
-    """Give states the values that conditions state for them, and close the loops around them.
+    """Set states to the values that conditions fix, and close the loops with them.
 
     Returns
     -------
     at : Point
         With closed loops.
     redundancy : Redundancy
-        What the ranks of the loops tell.
+        Redundant constraints.
     direct : dict of int to int
-        Condition -> the state that it gives.
+        Condition -> the state that it fixes.
     """
     compiled = problem.compiled
-    # The first condition on a state gives it, another one must agree.
-    first = {state: row for row, state in reversed(giving(compiled).items())}
+    # The first condition on a state fixes it; further ones must agree.
+    first = {state: row for row, state in reversed(fixing(compiled).items())}
     direct = {row: state for state, row in first.items()}
     if direct:
-        at = with_direct(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
+        at = with_fixed_states(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
     if not compiled.constraints.size:
         return at, Redundancy(), direct
     at, redundancy = closed_guess(problem, at, first)
@@ -214,9 +219,9 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
 
 
 def _system(problem: Problem, local: Local, initial: str) -> InitialSystem:
-    """Choose conditions, from the pattern of the equations, in each of which those unknowns come first that it depends on most.
+    """Choose conditions by matching on the pattern; the unknowns of each equation are sorted by its sensitivity.
 
-    A condition on a velocity then determines a velocity, although it also holds the orientation.
+    A condition on a velocity then determines a velocity, although it also depends on the orientation.
     """
     J = local.pattern
     size = np.abs(np.nan_to_num(local.entries)) * np.repeat(problem.nominal, np.diff(J.indptr))
@@ -230,20 +235,20 @@ def _chosen(compiled: CompiledModel, initial: str, order: bytes) -> InitialSyste
     nx, nz = compiled.nx, compiled.nz
     rows = _rows(compiled, np.frombuffer(order, dtype=np.intp))
     equations, conditions = rows[nx : nx + nz], rows[nx + nz :]
-    given = len(conditions)
+    n = len(conditions)
     done = complete(equations, conditions, nx + nz)
     guessed = list(done.free)
     if any(k >= nx for k in done.free):
-        # Some algebraic unknown is left over instead: let guesses of states replace conditions, those that conditions tell last.
-        told = {row[0] for row in conditions if row}
-        states = sorted(range(nx), key=lambda k: (not _is_guessed(compiled, k), k in told))
+        # An algebraic unknown is left undetermined: guesses of states replace conditions, states without conditions first.
+        determined = {row[0] for row in conditions if row}
+        states = sorted(range(nx), key=lambda k: (not _is_guessed(compiled, k), k in determined))
         done = complete(equations, [*conditions, *([k] for k in states)], nx + nz)
-        guessed = [states[k - given] for k in done.used if k >= given]
+        guessed = [states[k - n] for k in done.used if k >= n]
     if guessed and initial == "fixed":
         raise InitializationError(missing_text(compiled, guessed))
-    used = [nz + k for k in done.used if k < given]
-    surplus = [nz + k for k in done.surplus if k < given]
-    direct = {row: state for row, state in giving(compiled).items() if row in used}
+    used = [nz + k for k in done.used if k < n]
+    surplus = [nz + k for k in done.surplus if k < n]
+    direct = {row: state for row, state in fixing(compiled).items() if row in used}
     solved = [row for row in used if row not in direct]
     known = sorted([*guessed, *direct.values()])
     return InitialSystem(
@@ -268,7 +273,7 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
     at = _solution(problem, system, at)
     if system.surplus.size:
         local = problem.local(at, 1.0)
-        allowed = POLICY.newton.consistent * reach(local, at.y, problem.nominal)[problem.nx :]
+        allowed = POLICY.newton.consistent * residual_scale(local, at.y, problem.nominal)[problem.nx :]
         value = local.value[problem.nx :]
         wrong = [k for k in system.surplus if abs(value[k]) > allowed[k]]
         if wrong:
@@ -277,14 +282,14 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
 
 
 def _solution(problem: Problem, system: InitialSystem, at: Point) -> Point:
-    """Solve the initial system; where all states are known and no equation is of the start alone, as in a run."""
+    """Solve the initial system; by the core if all states are known and it differs in no equation from the run."""
     known = len(system.known) == problem.nx and np.array_equal(system.rows, np.arange(problem.nz))
-    if known and not flag_matters(problem.compiled) and (found := problem.solved(at, POLICY.newton.quick)):
+    if known and not uses_initial_flag(problem.compiled) and (found := problem.solved(at, POLICY.newton.quick)):
         return found
     try:
         return newton(problem, system, at, 1.0)
     except InitializationError:
-        found = follow(problem, system, at) or by_blocks(problem, system, at)
+        found = homotopy(problem, system, at) or by_blocks(problem, system, at)
         if found is None:
             raise
         return found

@@ -55,7 +55,7 @@ class InitialSystem:
     _blocks: list[Block] = field(default_factory=list, repr=False)
 
     @cached_property
-    def given(self) -> np.ndarray:
+    def fixing(self) -> np.ndarray:
         """The rows of `direct`, and their states, shape (2, n)."""
         return np.array(self.direct, dtype=int).reshape(-1, 2).T
 
@@ -67,7 +67,7 @@ class InitialSystem:
         return self._blocks[0]
 
 
-def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
+def homotopy(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
     """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if it leads nowhere."""
     first = problem.values(at, 1.0)[system.rows + problem.nx].copy()
     s, step = 0.0, NEWTON.first
@@ -118,11 +118,11 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         change = _change(step, y[free], scale)
         if change <= NEWTON.converged:
             y[free] += step if change > NEWTON.rounding else 0.0
-            if np.any(np.abs(value) > NEWTON.consistent * reach(local, y, problem.nominal)[rows]):
+            if np.any(np.abs(value) > NEWTON.consistent * residual_scale(local, y, problem.nominal)[rows]):
                 break
             return at.with_y(y)
     here = residual(y)
-    if np.all(np.abs(here) <= rounding(problem.local(at.with_y(y), flag), y, problem.nominal)[rows]):
+    if np.all(np.abs(here) <= round_off(problem.local(at.with_y(y), flag), y, problem.nominal)[rows]):
         return at.with_y(y)
     raise lost(here)
 
@@ -158,13 +158,13 @@ def algebraic(problem: Problem, at: Point) -> Point:
     try:
         return newton(problem, _algebraic(problem.compiled), at, 0.0)
     except NoConvergence:
-        found = _by_parts(problem, at)
+        found = _by_passes(problem, at)
         if found is None:
             raise
         return found
 
 
-def _by_parts(problem: Problem, at: Point) -> Point | None:
+def _by_passes(problem: Problem, at: Point) -> Point | None:
     """Solve for them block after block; None where that does not solve the equations.
 
     At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
@@ -179,7 +179,7 @@ def _by_parts(problem: Problem, at: Point) -> Point | None:
             if not np.max(change) > NEWTON.converged:
                 break
     own = slice(problem.nx, problem.nx + problem.nz)
-    solved = np.abs(problem.values(at)[own]) <= rounding(problem.local(at), at.y, problem.nominal)[own]
+    solved = np.abs(problem.values(at)[own]) <= round_off(problem.local(at), at.y, problem.nominal)[own]
     return at if np.all(solved) else None
 
 
@@ -188,12 +188,12 @@ def _algebraic(compiled: CompiledModel) -> InitialSystem:
     return InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(compiled.nx))
 
 
-def rounding(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def round_off(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
-    return NEWTON.terms * np.finfo(float).eps * reach(local, y, nominal)
+    return NEWTON.terms * np.finfo(float).eps * residual_scale(local, y, nominal)
 
 
-def reach(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def residual_scale(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the change in each row by unknowns of their present and nominal sizes together."""
     return local.magnitudes(np.abs(y) + nominal)
 

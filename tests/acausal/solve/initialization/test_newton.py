@@ -13,7 +13,7 @@ from acausal import Model, Scalar, der, fixed, variable
 from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.initialization.initial_modes import start
-from acausal.solve.initialization.newton import InitialSystem, _algebraic, algebraic, follow, newton
+from acausal.solve.initialization.newton import InitialSystem, _algebraic, algebraic, homotopy, newton
 from acausal.solve.problem import Problem
 from tests.acausal.solve.made import Made, linear
 
@@ -141,7 +141,7 @@ def test_the_homotopy_arrives_where_the_iteration_alone_runs_out_of_steps():
     with pytest.raises(ac.InitializationError):
         solved(exponential(), start)
     problem = exponential()
-    found = follow(problem, system(1), problem.at(start))
+    found = homotopy(problem, system(1), problem.at(start))
     assert found is not None
     assert found.y[0] == pytest.approx(0.0, abs=1e-12)
 
@@ -149,7 +149,7 @@ def test_the_homotopy_arrives_where_the_iteration_alone_runs_out_of_steps():
 def test_the_homotopy_ends_where_its_path_does():
     """The path of y^3 - 2 y + 2 from 0 turns back at the root of 2/3, and the only root lies on the other side."""
     problem = scalar(lambda y: y**3 - 2 * y + 2, lambda y: 3 * y**2 - 2)
-    assert follow(problem, system(1), problem.at(0.0)) is None
+    assert homotopy(problem, system(1), problem.at(0.0)) is None
 
 
 def test_algebraic_unknowns_alone():
