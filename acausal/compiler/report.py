@@ -25,7 +25,7 @@ class AtStart:
     dropped : tuple of int
         Residuals that close loops and are redundant by rank.
     singular : bool
-        Whether the start is a singular position.
+        Whether the start is a singular configuration.
     independent : tuple of str
         States from which the others follow by the loops.
     """
@@ -165,7 +165,7 @@ def _tell(loop: dict[str, Any]) -> str:
     if loop["undetermined"]:
         text += f"; undetermined, and set to 0 or so that they do no work: {_list(loop['undetermined'])}"
     if loop["singular_start"]:
-        text += "; the start is a singular position: all constraints are kept, the velocity selects the branch"
+        text += "; the start is a singular configuration: all constraints are kept, the velocity selects the branch"
     return text
 
 

@@ -60,13 +60,13 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     Raises
     ------
     ExportError
-        If it starts in a singular position: equations do not tell how it goes on.
+        If it starts in a singular configuration: equations do not tell how it goes on.
     """
     begun = start(problem, time, later, initial, decided_later=False)
     at = begun.point
     if leave_singular_start(problem, begun) is not at:
         raise ExportError(
-            f"the model starts in a singular position, t = {time:g} s, from where equations alone lead no further. Let it "
+            f"the model starts in a singular configuration, t = {time:g} s, from where equations alone lead no further. Let it "
             "start beside that."
         )
     system = initial_system(problem, at, initial)

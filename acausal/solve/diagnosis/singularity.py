@@ -80,7 +80,7 @@ def dependent_equations(problem: Problem, at: Point, flag: float = 0.0) -> str:
 
 
 def _dependent_around(probe: Probe) -> bool:
-    """Return whether dependent equations hold at the point and are dependent around it: not only in a singular position."""
+    """Return whether dependent equations hold at the point and are dependent around it: not only in a singular configuration."""
     left, _ = _null_vectors(probe)
     if not len(left):
         return False

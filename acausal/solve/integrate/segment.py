@@ -122,7 +122,7 @@ def passage(
     refusal : Refusal, optional
         That of a careful call over the same interval, which need not be repeated.
     """
-    # Loops that get stuck beside a singular position do so for ever.
+    # Loops that get stuck beside a singular configuration do so for ever.
     most = RESCUE.long if integrator.loops else RESCUE.hopeless // min(outputs, RESCUE.hopeless // RESCUE.long)
     way = replace(integrator.way, careful=True, max_steps=most)
     found = _stride(integrator, at, times, way, RESCUE.halvings, refusal)
