@@ -259,7 +259,7 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     output = rows if whole else rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
-    found += locked(integrator.problem, done.begun.point, done.begun.redundancy.dropped)
+    found += locked(integrator.problem, done.begun.point, done.begun.redundancy.redundant)
     found += opened(integrator.consistent, rows) + done.course.idle()
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
@@ -285,7 +285,7 @@ def _loosened(integrator: Integrator) -> list[str]:
     shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
     return [
         f"no step was short enough for the tolerance {integrator.tolerance:g} after t = {shown} s, as happens near a "
-        "singular position; a larger one was taken for one output interval each time, and the error may be larger from there on."
+        "singular configuration; a larger one was taken for one output interval each time; errors may be larger afterwards."
     ]
 
 

@@ -17,7 +17,7 @@ from acausal.solve.problem import Problem
 RANKS = POLICY.ranks
 
 
-def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
+def locked(problem: Problem, at: Point, redundant: tuple[int, ...]) -> list[str]:
     """Name loops in which nothing can move, if that hangs on a constraint that nearly follows from the others.
 
     Parameters
@@ -26,7 +26,7 @@ def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
         The model.
     at : Point
         A position in which the loops are closed.
-    dropped : tuple of int
+    redundant : tuple of int
         Constraints that follow from others.
     """
     flat, c = problem.compiled.reduced.flat, problem.compiled.constraints
@@ -35,7 +35,7 @@ def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
     held, apart = lowest(problem.compiled)
     found = list[str]()
     for block in apart:
-        kept = np.setdiff1d(block.rows, dropped)
+        kept = np.setdiff1d(block.rows, redundant)
         # What time drives moves although nothing is free.
         if not 0 < len(block.columns) <= len(kept) or _driven(problem.compiled)[c.lowest[kept]].any():
             continue

@@ -46,10 +46,10 @@ def follow(problem: Problem, before: Point, after: Point, held: np.ndarray) -> t
     for part in np.arange(1, parts) / parts:
         x = at.x.copy()
         x[held] = before.x[held] + part * way
-        at, mismatch = close(problem, replace(at, x=x), held, positions=True, sizes=sizes)
+        at, mismatch = close(problem, replace(at, x=x), held, positions=True, scales=sizes)
         if not mismatch <= POLICY.loops.closed:
             at = before
             break
     x = at.x.copy()
     x[held] = after.x[held]
-    return close(problem, replace(after, x=x), held, sizes=sizes)
+    return close(problem, replace(after, x=x), held, scales=sizes)

@@ -1,4 +1,4 @@
-"""Close the loops: coordinates that satisfy the constraints, near the guesses."""
+"""Assembly of closed loops: coordinates that satisfy the constraints, near the guesses."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LOOPS = POLICY.loops
 
 @once
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
-    """Residuals and states of each level of the constraints, positions first."""
+    """Rows and states of the constraints of each differentiation level, positions first."""
     c = compiled.constraints
     depth = max((len(r) for r in c.rows), default=0)
     found = []
@@ -39,12 +39,12 @@ def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
 def close(
     problem: Problem,
     at: Point,
-    held: np.ndarray,
+    fixed: np.ndarray,
     positions: bool = False,
-    sizes: np.ndarray | None = None,
+    scales: np.ndarray | None = None,
     yielding: np.ndarray | None = None,
 ) -> tuple[Point, float]:
-    """Change the coordinates as little as possible so that the constraints hold, level by level.
+    """Satisfy the constraints with the least change of the coordinates, level by level.
 
     Parameters
     ----------
@@ -52,49 +52,49 @@ def close(
         The model.
     at : Point
         Guesses of the states.
-    held : array of int
-        States that are given.
+    fixed : array of int
+        States that do not change.
     positions : bool
-        True for the lowest level of each constraint alone: positions, or velocities where a part states these.
-    sizes : array, optional
-        Sizes over which changes of the states count, shape (nx,); those in loops if not given.
+        True for the lowest level of each constraint alone: positions, or velocities of nonholonomic constraints.
+    scales : array, optional
+        Scales of the changes of the states, shape (nx,); `Problem.loop_scales` by default.
     yielding : array of int, optional
-        States among those that are held which change a little where the loops cannot close without.
+        Fixed states that may change a little if the loops cannot close otherwise.
 
     Returns
     -------
     at : Point
         With the states.
     mismatch : float
-        Largest residual, over its size.
+        Largest scaled residual.
     """
-    at = _with_value(problem, at, held)
-    mismatch, sizes = 0.0, problem.loop_scales if sizes is None else sizes
+    at = _with_value(problem, at, fixed)
+    mismatch, scales = 0.0, problem.loop_scales if scales is None else scales
     is_lowest = problem.compiled.constraints.is_lowest
     for depth, (rows, columns) in enumerate(levels(problem.compiled)):
         if positions and not any(is_lowest[rows]):
             continue
         rows = [row for row in rows if is_lowest[row]] if positions else rows
-        free = np.setdiff1d(columns, held)
+        free = np.setdiff1d(columns, fixed)
         own = np.intersect1d(columns, np.empty(0, int) if yielding is None else yielding)
-        if own.size and (found := _taken_up(problem, at, rows, free, own, depth > 0, sizes)):
+        if own.size and (found := _solve_yielding(problem, at, rows, free, own, depth > 0, scales)):
             at, left = found
         else:
-            at, left = _solve(problem, at, rows, free, depth > 0, sizes)
+            at, left = _solve(problem, at, rows, free, depth > 0, scales)
         if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.loop_scales)):
-            # Near a singular position rates are known only as well as the root of the positions.
-            at, left = _solve(problem, at, rows, columns, depth > 0, sizes)
+            # Near a singular configuration the error of rates is the square root of that of positions.
+            at, left = _solve(problem, at, rows, columns, depth > 0, scales)
         mismatch = max(mismatch, left)
         if left > LOOPS.closed:
             break
     return at, mismatch
 
 
-def _with_value(problem: Problem, at: Point, held: np.ndarray) -> Point:
-    """Disturb guesses at which a constraint has no value, as for frames to be joined that are half a turn apart."""
+def _with_value(problem: Problem, at: Point, fixed: np.ndarray) -> Point:
+    """Perturb guesses at which a constraint is not finite, as for joined frames that are half a turn apart."""
     if np.all(np.isfinite(problem.constraints(at)[0])):
         return at
-    free = np.setdiff1d(problem.compiled.constraints.states, held)
+    free = np.setdiff1d(problem.compiled.constraints.states, fixed)
     for k, size in enumerate(LOOPS.attempts):
         start = at.x[free] + size * problem.loop_scales[free] * np.random.default_rng(k).standard_normal(len(free))
         tried = _with(at, free, start)
@@ -111,7 +111,7 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 
 
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
-    """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
+    """Return the function of some states that evaluates scaled residuals of some rows, and their Jacobian."""
     c, (size, rigid) = problem.compiled.constraints, problem.residual_scales_and_rigid(at)
     block, of_entry = block_of(c.pattern, rows, free), np.where(rigid, np.inf, size)[c.pattern.indices]
     matrix = block.sparse if _are_many(rows) else block.dense
@@ -127,23 +127,23 @@ def _are_many(rows: list[int]) -> bool:
     return len(rows) > POLICY.ranks.small
 
 
-def _taken_up(
-    problem: Problem, at: Point, rows: list[int], free: np.ndarray, soft: np.ndarray, linear: bool, sizes: np.ndarray
+def _solve_yielding(
+    problem: Problem, at: Point, rows: list[int], free: np.ndarray, soft: np.ndarray, linear: bool, scales: np.ndarray
 ) -> tuple[Point, float] | None:
-    """Close one level near the guesses; where it misses by little without the soft states, these change as little as possible.
+    """Close one level near the guesses; where a small residual remains, the yielding states change as well.
 
     Returns
     -------
     at, left
-        As of `_solve`; None where it misses by much.
+        As of `_solve`; None if a large residual remains.
     """
-    near, left = _solve(problem, at, rows, free, linear, sizes, LOOPS.attempts[:1])
+    near, left = _solve(problem, at, rows, free, linear, scales, LOOPS.attempts[:1])
     size = 1.0
-    if linear and LOOPS.closed < left:  # rates may miss each other by a part of what moves
+    if linear and LOOPS.closed < left:  # relative to the rates that move
         u = near.x[free]
         size = float(np.max(abs(_residuals(problem, near, rows, free)(u)[1]) @ np.abs(u), initial=0.0))
     if LOOPS.closed < left <= LOOPS.taken * size:
-        near, left = _solve(problem, near, rows, np.union1d(free, soft), linear, sizes, LOOPS.attempts[:1])
+        near, left = _solve(problem, near, rows, np.union1d(free, soft), linear, scales, LOOPS.attempts[:1])
     return (near, left) if left <= LOOPS.closed else None
 
 
@@ -153,15 +153,15 @@ def _solve(
     rows: list[int],
     free: np.ndarray,
     linear: bool,
-    sizes: np.ndarray,
+    scales: np.ndarray,
     attempts: tuple[float, ...] = LOOPS.attempts,
 ) -> tuple[Point, float]:
-    """Close one level; where it is linear in its coordinates, a step of least change is enough."""
+    """Close one level, linear ones by a single minimum-norm step; return the largest scaled residual as well."""
     evaluate = _residuals(problem, at, rows, free)
     left = float(np.max(np.abs(evaluate(at.x[free])[0]), initial=0.0))
     if not free.size or left == 0:
         return at, left
-    best, scale = at.x[free], sizes[free]
+    best, scale = at.x[free], scales[free]
     if linear:
         best, left = _polish(evaluate, best, scale)
     smallest = left if np.isfinite(left) else np.inf
@@ -180,16 +180,16 @@ def _solve(
 
 
 def tighten(problem: Problem, at: Point) -> Point:
-    """Close loops that are nearly closed, by a few steps of least change; where they do not lead there, as `close` does."""
+    """Close nearly closed loops by a few minimum-norm Newton steps, by `close` if these do not converge."""
     tight = polished(problem, at, np.empty(0, int))
     return close(problem, at, np.empty(0, int))[0] if tight is None else tight
 
 
-def polished(problem: Problem, at: Point, held: np.ndarray) -> Point | None:
-    """Close loops by a few steps of least change of what is not held; None where they do not lead there."""
+def polished(problem: Problem, at: Point, fixed: np.ndarray) -> Point | None:
+    """Close loops by a few minimum-norm Newton steps in the other than the fixed states; None if they do not converge."""
     tight = at
     for rows, columns in levels(problem.compiled):
-        free = np.setdiff1d(columns, held)
+        free = np.setdiff1d(columns, fixed)
         found, left = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.loop_scales[free])
         if not left <= LOOPS.closed:
             return None
@@ -198,7 +198,7 @@ def polished(problem: Problem, at: Point, held: np.ndarray) -> Point | None:
 
 
 def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float]:
-    """Take Gauss-Newton steps of least norm down to rounding; return the largest residual as well."""
+    """Take minimum-norm Gauss-Newton steps down to round-off; return the largest residual as well."""
     value, J = evaluate(u)
     for _ in range(LOOPS.polishing):
         tried = u + least_norm(J, scale, POLICY.ranks.polish)(-value)
@@ -209,17 +209,17 @@ def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> tuple[np.n
     return u, float(np.max(np.abs(value), initial=0.0))
 
 
-def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str = "") -> None:
-    """Raise InitializationError with the mismatch of every loop that does not close; `jump` tells where states jumped."""
+def refuse_open_loops(problem: Problem, at: Point, fixed: np.ndarray, jump: str = "") -> None:
+    """Raise InitializationError with the mismatch of all open loops; `jump` is where a jump of states is stated."""
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
     value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.closure_errors(at))
     lines, directions = list[str](), dict[str, None]()
     for number, loop in enumerate(flat.loops.cuts):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
-        levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
-        apart = [float(np.max(value[rows], initial=0.0)) if rows else 0.0 for rows in levels_of]
-        wide = [bool(np.any(gap[rows] > LOOPS.closed)) if rows else False for rows in levels_of]
+        by_level = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
+        apart = [float(np.max(value[rows], initial=0.0)) if rows else 0.0 for rows in by_level]
+        wide = [bool(np.any(gap[rows] > LOOPS.closed)) if rows else False for rows in by_level]
         how = [f"miss each other by {apart[0]:.4g} m or rad", f"move apart at {apart[1]:.4g} m/s or rad/s"]
         for text, open_ in zip(how, wide, strict=True):
             if open_:
@@ -231,46 +231,42 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
         base = compiled.reduced.plan.constrained.constraints[k].base
         if k not in c.of_loops and np.max(gap[list(rows)]) > LOOPS.closed:
             lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
-    parts = soft_parts(compiled, held)
-    given = [compiled.states[k] for k in np.intersect1d(held, c.states) if k not in parts]
+    parts = soft_parts(compiled, fixed)
+    named = [compiled.states[k] for k in np.intersect1d(fixed, c.states) if k not in parts]
     if lines and np.max(gap) > LOOPS.closed:
-        head = _open_head(at.time, len(lines), bool(given or parts))
-        remedy = " ".join([_open_remedy(given), *_soft_remedy(list(parts.values()))])
+        head = _open_head(at.time, len(lines), bool(named or parts))
+        remedy = " ".join([_open_remedy(named), *_soft_remedy(list(parts.values()))])
         if jump:
-            names = ", ".join(f"`{name}` = {at.x[compiled.states.index(name)]:.4g}" for name in given)
-            loops, they = (
-                ("this loop does" if len(lines) == 1 else "these loops do"),
-                "it" if len(given) == 1 else "them",
-            )
-            head = f"{loops} not close with {names}, where {jump} lets {they} jump:"
-            remedy = f"Let {they} jump to what the loop can reach."
+            names = ", ".join(f"`{name}` = {at.x[compiled.states.index(name)]:.4g}" for name in named)
+            loops = "this loop does" if len(lines) == 1 else "these loops do"
+            they = "it" if len(named) == 1 else "them"
+            head = f"{loops} not close with {names}, to which {jump} sets {they}:"
+            remedy = f"Set {they} to values that the loop can reach."
         raise InitializationError("\n".join([head, *lines, *filter(None, directions), remedy]))
 
 
 def _open_head(time: float, n: int, fixed: bool) -> str:
     one, at = n == 1, f"at t = {time:g} s"
     if fixed:
-        return f"{'this loop does' if one else 'these loops do'} not close {at} with the start values that are fixed:"
+        return f"{'this loop does' if one else 'these loops do'} not close {at} with the fixed start values:"
     which = "this loop closes" if one else "these loops close"
     return f"{at} no position of the joints was found in which {which}:"
 
 
-def soft_parts(compiled: CompiledModel, held: np.ndarray) -> dict[int, Component]:
-    """Components whose soft conditions give states, by these."""
+def soft_parts(compiled: CompiledModel, fixed: np.ndarray) -> dict[int, Component]:
+    """Components whose soft conditions fix states, by these states."""
     conditions, nz = compiled.reduced.flat.equations.initial, compiled.nz
     of = {state: conditions[row - nz].origin.path for row, state in fixing(compiled).items() if row in soft(compiled)}
     parts = {part._path: part for part in walk(compiled.tree)}
-    return {state: parts[of[state]] for state in np.intersect1d(held, list(of)).astype(int).tolist()}
+    return {state: parts[of[state]] for state in np.intersect1d(fixed, list(of)).astype(int).tolist()}
 
 
 def _soft_remedy(parts: list[Component]) -> list[str]:
-    """How each part is told to start without its soft conditions."""
-    told = [f"`{p._path}`: {type(p).__name__}({p.without_soft})" for p in dict.fromkeys(parts) if p.without_soft]
-    if not told:
+    """Return the remedy to start parts without their soft conditions."""
+    arguments = [f"`{p._path}`: {type(p).__name__}({p.without_soft})" for p in dict.fromkeys(parts) if p.without_soft]
+    if not arguments:
         return []
-    return [
-        f'Or leave their shape at the start to the loops: {", ".join(told)}, with simulate(..., initial="guesses").'
-    ]
+    return [f'Or let the loops determine their shape: {", ".join(arguments)}, with simulate(..., initial="guesses").']
 
 
 def _open_remedy(fixed: list[str]) -> str:

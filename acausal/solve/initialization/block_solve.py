@@ -1,4 +1,4 @@
-"""Solve the initial system block by block: each begins from what is right already, where all at once are too far off."""
+"""Solve the initial system block by block, where the guesses are too far off for one Newton iteration on all of it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from acausal.structure.matching import maximum_matching
 
 
 def by_blocks(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
-    """Return a solution of the initial system, solved in block lower triangular form; None where that finds none.
+    """Return the solution of the initial system, block by block of its block lower triangular form; None if that fails.
 
     Parameters
     ----------

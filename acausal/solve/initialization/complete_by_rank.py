@@ -1,4 +1,4 @@
-"""What completes the initial system, by ranks at a point where the loops are closed instead of by patterns."""
+"""Complete the initial system of a model with loops by numerical ranks, at a point where the loops are closed."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from acausal.solve.problem import Problem
 LOOPS = POLICY.loops
 
 
-def closed_guess(problem: Problem, at: Point, given: Mapping[int, int]) -> tuple[Point, Redundancy]:
-    """Close the loops near the guesses, find what is redundant, and choose a projection.
+def closed_guess(problem: Problem, at: Point, fixed: Mapping[int, int]) -> tuple[Point, Redundancy]:
+    """Close the loops near the guesses, find redundant constraints, and choose a projection.
 
     Parameters
     ----------
@@ -35,34 +35,34 @@ def closed_guess(problem: Problem, at: Point, given: Mapping[int, int]) -> tuple
         The model.
     at : Point
         Guesses of the states.
-    given : mapping of int to int
-        States that conditions give -> these; what soft ones give yields a little where the loops cannot close without.
+    fixed : mapping of int to int
+        States that conditions fix -> these; states with soft ones change a little if the loops cannot close otherwise.
 
     Raises
     ------
     InitializationError
         If a loop cannot close.
     """
-    held = np.array(sorted(given), dtype=int)
-    yielding = [state for state in held.tolist() if given[state] in soft(problem.compiled)]
-    closed, mismatch = close(problem, at, held, yielding=np.array(yielding, dtype=int))
+    states = np.array(sorted(fixed), dtype=int)
+    yielding = [state for state in states.tolist() if fixed[state] in soft(problem.compiled)]
+    closed, mismatch = close(problem, at, states, yielding=np.array(yielding, dtype=int))
     if not mismatch <= LOOPS.closed:
-        refuse_open_loops(problem, closed, held)
+        refuse_open_loops(problem, closed, states)
     redundancy = find_redundancy(problem, closed)
     closures = problem.compiled.constraints.closures
-    counts = np.array([k not in redundancy.dropped for k in closures], dtype=float)
+    counts = np.array([k not in redundancy.redundant for k in closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
     closed = replace(closed, constants=reselected(problem, closed))
     closed = replace(closed, constants=shared(problem, closed))
     left = {k for k, on in zip(closures, closed.constants.closures, strict=True) if not on}
-    redundancy = replace(redundancy, dropped=tuple(sorted(left | set(redundancy.dropped) - set(closures))))
+    redundancy = replace(redundancy, redundant=tuple(sorted(left | set(redundancy.redundant) - set(closures))))
     return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy
 
 
 def complete_by_rank(
     problem: Problem, at: Point, direct: Mapping[int, int], conditions: list[int], refuse: bool, flag: float = 1.0
 ) -> InitialSystem:
-    """Complete the initial system by the ranks of its Jacobian.
+    """Choose conditions and guesses that complete the initial system, by the ranks of its Jacobian.
 
     Parameters
     ----------
@@ -71,23 +71,23 @@ def complete_by_rank(
     at : Point
         A point where the loops are closed.
     direct : mapping of int to int
-        Conditions that give a state each, which is known then.
+        Conditions that fix one state each -> these states.
     conditions : list of int
-        Other rows in order of importance; counted from the first algebraic equation, those of derivatives are negative and
-        need not hold where others determine all.
+        Other rows in order of priority, counted from the first algebraic equation; those of derivatives are negative and
+        need not hold if the others determine all unknowns.
     refuse : bool
-        Whether freedoms that are left are refused or take their guesses.
+        Whether undetermined states raise InitializationError or take their guesses.
     flag : float, optional
-        1 while the conditions of the start hold, 0 in equilibrium.
+        1 for the initial system, 0 in equilibrium.
     """
     compiled, c, nx, nz = problem.compiled, problem.compiled.constraints, problem.nx, problem.nz
-    held = sorted(direct.values())
-    free = np.setdiff1d(np.arange(nx), held)
+    fixed = sorted(direct.values())
+    free = np.setdiff1d(np.arange(nx), fixed)
     rows = nx + np.array(conditions, dtype=int)
     M, C = _reduced(problem, at, free, rows, flag)
     used, surplus = _independent(M, C)
     if surplus:
-        # A condition can lack influence at one position without lacking it around.
+        # A condition may be independent around the point but not at it.
         shake = POLICY.ranks.shake * np.random.default_rng(0).standard_normal(len(free))
         moved = at.x.copy()
         moved[free] += shake * problem.loop_scales[free]
@@ -107,7 +107,7 @@ def complete_by_rank(
     }
     equations = [k for k in range(nz) if k not in off]
     demanded = [conditions[k] for k in surplus if conditions[k] >= 0 and conditions[k] not in soft(compiled)]
-    known = sorted([*held, *left, *(nx + c.multipliers).tolist()])
+    known = sorted([*fixed, *left, *(nx + c.multipliers).tolist()])
     solved = [*equations, *(conditions[k] for k in used)]
     return InitialSystem(np.array(solved, int), np.array(demanded, int), np.array(known, int), tuple(direct.items()))
 
@@ -115,7 +115,7 @@ def complete_by_rank(
 def _reduced(
     problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray, flag: float
 ) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
-    """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
+    """Jacobians by the free states of the constraints, and of some rows with algebraic unknowns eliminated."""
     nx, nz = problem.nx, problem.nz
     M, size = problem.scaled_gradients(at)[:, free], problem.loop_scales[free]
     if not rows.size:
@@ -127,7 +127,7 @@ def _reduced(
 
 
 def _independent(M: scipy.sparse.csc_matrix, C: np.ndarray) -> tuple[list[int], list[int]]:
-    """Conditions that are independent of the constraints and those before them (Gram and Schmidt)."""
+    """Split conditions by Gram-Schmidt: those independent of the constraints and their predecessors, and the others."""
     if not len(C):
         return [], []
     free, basis = outside(M), np.zeros((0, C.shape[1]))
@@ -148,20 +148,20 @@ def _independent(M: scipy.sparse.csc_matrix, C: np.ndarray) -> tuple[list[int], 
 
 
 def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.ndarray) -> list[int]:
-    """States that nothing determines: those along which what is left free moves most, guessed ones first."""
+    """Undetermined states: pivots of the null space, states with guesses first."""
     null = null_space(rows, independent)
     if not len(null):
         return []
-    told, plan = compiled.reduced.flat.unknowns.guessed, compiled.reduced.plan
+    given, plan = compiled.reduced.flat.unknowns.guessed, compiled.reduced.plan
     of = {q.state: q.coordinate for q in plan.constrained.projections}
-    guessed = [bool(told[of.get(v, v)]) if of.get(v, v) < len(told) else False for v in plan.states]
+    guessed = [bool(given[of.get(v, v)]) if of.get(v, v) < len(given) else False for v in plan.states]
     weight = np.where(np.array(guessed)[free], POLICY.ranks.guessed, 1.0)
     order = pivots(null * weight)[: len(null)]
     return sorted(int(free[k]) for k in order)
 
 
 def leave_singular(problem: Problem, at: Point) -> Point:
-    """Continue from a singular position along the velocity, so short a distance that accelerations do not matter."""
+    """Continue from a singular configuration along the velocity, so briefly that accelerations do not matter."""
     x = at.x
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
     moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
@@ -169,8 +169,8 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     sizes = problem.loop_scales
     if not np.any(np.abs(x[rates]) > LOOPS.rest * sizes[rates]):
         raise InitializationError(
-            f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops "
-            "continue. Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
+            f"the start at t = {at.time:g} s is a singular configuration at rest: the branch on which the loops continue is "
+            "undetermined. Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
     later = LOOPS.away / float(np.max(np.abs(x[rates]) / sizes[coordinates]))
     moved = x.copy()
@@ -179,8 +179,8 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     allowed = LOOPS.stays * np.max(np.abs(x[rates]) / sizes[rates]) * sizes[rates]
     if np.any(np.abs(left.x[rates] - x[rates]) > allowed):
         raise InitializationError(
-            f"the start at t = {at.time:g} s is a singular position, where several branches meet, and these velocities are "
-            "tangent to none of them. Give those of one branch (guess(...) leaves the joints that follow free), or start "
-            "0.01 rad beside it."
+            f"the start at t = {at.time:g} s is a singular configuration, where branches meet, and the velocities are tangent "
+            "to none of them. Give those of one branch (guess(...) leaves dependent joints free), or start 0.01 rad away "
+            "from it."
         )
     return left

@@ -56,8 +56,8 @@ class Start:
 
     def found(self, compiled: CompiledModel) -> AtStart:
         """Return the entries of a report."""
-        dropped = (k for k, row in enumerate(compiled.constraints.closures) if row in self.redundancy.dropped)
-        return AtStart(tuple(dropped), self.redundancy.singular, self.independent_states)
+        redundant = (k for k, row in enumerate(compiled.constraints.closures) if row in self.redundancy.redundant)
+        return AtStart(tuple(redundant), self.redundancy.singular, self.independent_states)
 
 
 def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) -> Start:
@@ -96,7 +96,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         try:
             at = _solve(problem, system, at)
         except InitializationError:
-            # In a singular position forces may be undefined; the closed loops alone determine how to leave it.
+            # In a singular configuration forces may be undefined; the closed loops alone determine how to leave it.
             if not (redundancy.singular and _states_suffice(problem, system)):
                 raise
     # The equations of the run replace those of the initial system: the states stay, algebraic unknowns follow.

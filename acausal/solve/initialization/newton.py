@@ -1,4 +1,4 @@
-"""Damped Newton iteration on the initial system, and a homotopy for cases where it fails."""
+"""Damped Newton iteration on the initial system, and a homotopy where it does not converge."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Solver = Callable[[np.ndarray], np.ndarray]
 
 
 class NoConvergence(InitializationError):
-    """The iteration found no solution; `at` is where it ended, `flag` is 1 for the initial system, `worst` what does not hold."""
+    """No solution found; `at` is the last iterate, `flag` 1 for the initial system, `worst` lists unsatisfied equations."""
 
     def __init__(self, text: str, at: Point, flag: float, worst: str = "") -> None:
         super().__init__(text)
@@ -34,18 +34,18 @@ class NoConvergence(InitializationError):
 
 @dataclass(frozen=True)
 class InitialSystem:
-    """Which conditions complete the equations at the start.
+    """Equations and unknowns of the initial system.
 
     Parameters
     ----------
     rows : array of int
         Rows of (alg, conditions) that are solved, as many as unknowns.
     surplus : array of int
-        Rows that must then hold by themselves.
+        Rows that the solution must satisfy as well.
     known : array of int
-        States that are not solved for: they take their guesses, or follow from a condition at once.
+        States that are not solved for: they take their guesses, or a condition fixes them.
     direct : tuple of (int, int)
-        (row, state) of linear conditions that hold one state and nothing else.
+        (row, state) of linear conditions on one state alone.
     """
 
     rows: np.ndarray
@@ -60,7 +60,7 @@ class InitialSystem:
         return np.array(self.direct, dtype=int).reshape(-1, 2).T
 
     def block(self, J: scipy.sparse.csc_matrix, first: int) -> Block:
-        """Its block of the Jacobian of a model, the first `first` of whose rows are derivatives of states."""
+        """Return its block of the Jacobian of a model, whose first `first` rows are derivatives of states."""
         if not self._blocks:
             free = np.setdiff1d(np.arange(J.shape[1]), self.known)
             self._blocks.append(block_of(J, first + self.rows, free))
@@ -68,7 +68,7 @@ class InitialSystem:
 
 
 def homotopy(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
-    """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if it leads nowhere."""
+    """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if steps underflow."""
     first = problem.values(at, 1.0)[system.rows + problem.nx].copy()
     s, step = 0.0, NEWTON.first
     while s < 1:
@@ -95,20 +95,20 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     def residual(y: np.ndarray) -> np.ndarray:
         return problem.values(at.with_y(y), flag)[rows] - offset
 
-    def lost(value: np.ndarray) -> NoConvergence:
+    def failure(value: np.ndarray) -> NoConvergence:
         text = no_convergence_text(problem.compiled, value, system.rows, system.surplus, at.time)
         return NoConvergence(text, at.with_y(y), flag, "\n".join(worst_lines(problem.compiled, value, system.rows)))
 
     value = residual(y)
     if not np.all(np.isfinite(value)):
-        raise lost(value)
+        raise failure(value)
     for _ in range(NEWTON.iterations):
         local = problem.local(at.with_y(y), flag)
-        # Where the block is singular, the step of least norm, if there is one, leads on.
+        # The step of least norm passes points where the block is singular.
         order = "NATURAL" if free[0] == nx else "COLAMD"
         solve = factored(block.sparse(local.entries), scale, POLICY.ranks.least_norm, order)
         step = -solve(value)
-        # A correction as small as rounding makes it has nothing to reduce: it ends the iteration.
+        # A correction at round-off level cannot reduce the next one: it ends the iteration.
         if not _change(step, y[free], scale) <= NEWTON.converged:
             found = _damped(residual, solve, y, free, scale, step)
             if found is None:
@@ -124,7 +124,7 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     here = residual(y)
     if np.all(np.abs(here) <= round_off(problem.local(at.with_y(y), flag), y, problem.nominal)[rows]):
         return at.with_y(y)
-    raise lost(here)
+    raise failure(here)
 
 
 def _change(step: np.ndarray, y: np.ndarray, scale: np.ndarray) -> float:
@@ -135,7 +135,7 @@ def _change(step: np.ndarray, y: np.ndarray, scale: np.ndarray) -> float:
 def _damped(
     residual: Solver, solve: Solver, y: np.ndarray, free: np.ndarray, scale: np.ndarray, step: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Values after as much of a step as passes the restricted test, their residuals and the next step but for its sign."""
+    """Return the damped step that passes the monotonicity test, its residuals and the negative next step, or None."""
     damping = 1.0
     while damping >= NEWTON.damping:
         tried = y.copy()
@@ -143,7 +143,7 @@ def _damped(
         value = residual(tried)
         if np.all(np.isfinite(value)):
             simplified = solve(value)
-            # Deuflhard 2004, section 3.3.
+            # Restricted monotonicity test, Deuflhard 2004, section 3.3.
             least = (1 - damping / 4) * np.linalg.norm(step / scale) + NEWTON.floor
             if np.linalg.norm(simplified / scale) <= least:
                 return tried, value, simplified
@@ -152,7 +152,7 @@ def _damped(
 
 
 def algebraic(problem: Problem, at: Point) -> Point:
-    """Solve for the algebraic unknowns, with the states as they are."""
+    """Solve for the algebraic unknowns at fixed states."""
     if found := problem.solved(at, NEWTON.quick):
         return found
     try:
@@ -165,10 +165,10 @@ def algebraic(problem: Problem, at: Point) -> Point:
 
 
 def _by_passes(problem: Problem, at: Point) -> Point | None:
-    """Solve for them block after block; None where that does not solve the equations.
+    """Solve for the algebraic unknowns block by block; None if that does not converge.
 
-    At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
-    each of them alone. In one matrix that is d^4, which is less than rounding.
+    At a distance d from a singular configuration the smallest pivots are of order d in the constraints of coordinates and
+    of rates, and d^2 in those of forces. The product d^4 in one matrix would be below round-off.
     """
     for step in problem.compiled.passes(tuple(range(problem.nz))):
         for _ in range(1 if step.linear else NEWTON.iterations):
@@ -189,19 +189,19 @@ def _algebraic(compiled: CompiledModel) -> InitialSystem:
 
 
 def round_off(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
-    """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
+    """Return the round-off of residuals; stiff parts make unknowns follow it."""
     return NEWTON.terms * np.finfo(float).eps * residual_scale(local, y, nominal)
 
 
 def residual_scale(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
-    """Return the change in each row by unknowns of their present and nominal sizes together."""
+    """Return the change of each residual with unknowns that change by their value and their nominal value."""
     return local.magnitudes(np.abs(y) + nominal)
 
 
 def terms(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
-    """Return the size of the terms of each row, and at least that of its smallest one at nominal values."""
+    """Return the size of the terms of each row, at least that of its smallest term at nominal values."""
     size, J = local.terms(nominal), local.pattern
     least = np.full(J.shape[0], np.inf)
     np.minimum.at(least, J.indices, np.where(size != 0, size, np.inf))
-    # Rows of zeros have no smallest term.
+    # Rows of zeros have no term.
     return local.magnitudes(np.abs(y)) + np.where(least == np.inf, 0.0, least)

@@ -27,7 +27,7 @@ RANKS = POLICY.ranks
 class Redundancy:
     """Redundant constraints, by number, and whether the position is singular."""
 
-    dropped: tuple[int, ...] = ()
+    redundant: tuple[int, ...] = ()
     singular: bool = False
 
 
@@ -57,8 +57,8 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
         # What seems to be free is held by what the Jacobian does not show, such as the length of a straight inextensible beam.
         return Redundancy((), True)
     weight = _weight(problem.compiled)
-    dropped = [row for block, rows in zip(doubtful, best, strict=True) for row in _surplus(block, rows, weight)]
-    return Redundancy(tuple(sorted(dropped)), singular)
+    redundant = [row for block, rows in zip(doubtful, best, strict=True) for row in _surplus(block, rows, weight)]
+    return Redundancy(tuple(sorted(redundant)), singular)
 
 
 @once
@@ -70,7 +70,7 @@ def lowest(compiled: CompiledModel) -> tuple[Block, list[Block]]:
 
 
 def _weight(compiled: CompiledModel) -> np.ndarray:
-    """Those that cannot be dropped come first."""
+    """Those that cannot be redundant come first."""
     c = compiled.constraints
     weight = np.full(len(c.rows), RANKS.kept)
     weight[np.array(c.closures, dtype=int)[may_be_redundant(compiled)]] = 1.0

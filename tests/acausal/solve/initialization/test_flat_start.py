@@ -50,12 +50,12 @@ class Flat(Model):
     ),
 )
 def test_a_flat_four_bar_at_rest_is_refused(method: str, lengths: tuple[float, ...], gravity: float) -> None:
-    with pytest.raises(ac.InitializationError, match="singular position at rest"):
+    with pytest.raises(ac.InitializationError, match="singular configuration at rest"):
         ac.simulate(Flat(lengths=lengths, gravity=gravity), stop_time=1, method=method)
 
 
 def test_a_flat_four_bar_that_takes_its_guesses_is_refused() -> None:
-    with pytest.raises(ac.InitializationError, match="singular position at rest"):
+    with pytest.raises(ac.InitializationError, match="singular configuration at rest"):
         ac.simulate(Flat(given=False), stop_time=1, initial="guesses")
 
 
@@ -89,13 +89,13 @@ class Turned(Flat):
     pairwise([0.3, 1.0, np.pi / 2], [(1.0, 2.0, 1.0, 2.0), (1.0, 2.0, 0.5, 2.5)], ["auto", "idas", "rosenbrock"]),
 )
 def test_a_turned_flat_four_bar_at_rest_is_refused(method: str, lengths: tuple[float, ...], angle: float) -> None:
-    with pytest.raises(ac.InitializationError, match="singular position at rest"):
+    with pytest.raises(ac.InitializationError, match="singular configuration at rest"):
         ac.simulate(Turned(lengths=lengths, angle=angle), stop_time=1, method=method)
 
 
 @pytest.mark.parametrize("method", ["auto", "rosenbrock"])
 def test_a_turned_flat_four_bar_that_takes_its_guesses_is_refused(method: str) -> None:
-    with pytest.raises(ac.InitializationError, match="singular position at rest"):
+    with pytest.raises(ac.InitializationError, match="singular configuration at rest"):
         ac.simulate(Turned(given=False), stop_time=1, initial="guesses", method=method)
 
 
@@ -133,6 +133,6 @@ class Stuck(Flat):
 
 
 def test_a_start_that_cannot_leave_a_singular_position_says_so() -> None:
-    with pytest.raises(ac.InitializationError, match="singular position") as caught:
+    with pytest.raises(ac.InitializationError, match="singular configuration") as caught:
         ac.simulate(Stuck(lengths=(1.0, 2.0, 0.5, 2.5)), stop_time=1, initial="guesses", method="rosenbrock")
     assert "no reason" not in str(caught.value)
