@@ -136,17 +136,17 @@ def linearize(
     slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in inputs]))
     slopes = slopes_at(at)
     check_point(problem, at, slopes_at)
-    N, chosen = tangent(problem, at)
+    N, independent = tangent(problem, at)
     # By the independent states and the inputs.
     slopes = np.hstack([slopes[:, :nx] @ N, slopes[:, nx:]])
-    (A, B), (C, D) = (np.split(rows, [len(chosen)], axis=1) for rows in (slopes[chosen], slopes[nx:]))
+    (A, B), (C, D) = (np.split(rows, [len(independent)], axis=1) for rows in (slopes[independent], slopes[nx:]))
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name))]
     return Linearization(
         A=A,
         B=B,
         C=C,
         D=D,
-        states=tuple(compiled.states[k] for k in chosen),
+        states=tuple(compiled.states[k] for k in independent),
         inputs=tuple(name for name, _ in inputs),
         outputs=tuple(names),
     )

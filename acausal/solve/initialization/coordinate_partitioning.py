@@ -1,4 +1,8 @@
-"""Which coordinates of loops are states, or along which directions they are projected, once numbers are known."""
+"""Coordinate partitioning of closed loops, or projection directions, from numerical constraint Jacobians.
+
+Partitioning selects dependent coordinates by pivots (Wehage and Haug 1982); the independent ones are integrated. Otherwise
+states are projected on the constraints along the rows of D.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +25,7 @@ from acausal.solve.sparse_blocks import Block
 
 LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
 
-# Of each block, and of those of its rows that are given as bytes.
+# Row spaces, by block and by the mask of its rows.
 Spaces = dict[tuple[Block, bytes], np.ndarray]
 
 
@@ -33,21 +37,20 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
     problem : Problem
         The model.
     at : Point
-        A consistent point, with the constants of the segment before.
+        A consistent point, with the constants of the last segment.
     spare : bool
-        Whether stiff coordinates count less; the algebraic unknowns must then be consistent, too.
+        Whether stiff coordinates move less; this needs consistent algebraic unknowns.
     moves : bool
-        False makes some coordinates follow from the others (pivoted choice of states), True projects along the constraint
-        Jacobian as it changes on the way, stiff coordinates the less.
+        False for coordinate partitioning, True for projection along the current constraint Jacobian.
     """
     moving = _moving(problem, at, spare)
     return moving if moves else partitioned(problem, replace(at, constants=moving))
 
 
 def partitioned(problem: Problem, at: Point) -> Constants:
-    """Return the constants with which some coordinates follow from the others, at a point whose projection moves."""
+    """Return the constants of a coordinate partitioning at a point whose projection moves."""
     c = problem.compiled.constraints
-    J, sizes = _held(problem, Rows.of(at), at.constants)
+    J, sizes = _jacobians(problem, Rows.of(at), at.constants)
     D = J[0] * at.constants.D / sizes**2
     selection = _select(constraint_blocks(problem.compiled), D, c.counting(at.constants.closures))
     return replace(at.constants, moves=False, D=selection * sizes)
@@ -57,8 +60,8 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
     c = problem.compiled.constraints
     rows, columns = c.entries
     on = c.counting(at.constants.closures)
-    # States count in their sizes: the least change of them, J' over their squares, is the way to the constraints.
-    J, sizes = _held(problem, Rows.of(at), at.constants)
+    # The least scaled change of the states that reaches the constraints is along J' over the squares of their scales.
+    J, sizes = _jacobians(problem, Rows.of(at), at.constants)
     J = J[0] * on[rows]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
     weights = _stiffness_weights(constraint_blocks(problem.compiled), J, stiffness[columns], problem.feedback)
@@ -68,10 +71,8 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
 
 
 @np.errstate(all="ignore")
-def closing_scales(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
-    """Return sizes of the states with which loops close, shape (nx,): stiff ones are small, where others suffice to close them.
-
-    Stiff is what is so much stiffer than these.
+def closing_scales(problem: Problem, at: Point, fixed: np.ndarray) -> np.ndarray:
+    """Return scales of the states for closing loops, shape (nx,): small for stiff ones, if the others suffice to close them.
 
     Parameters
     ----------
@@ -79,13 +80,13 @@ def closing_scales(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
         The model.
     at : Point
         A consistent point.
-    held : array of int
-        States that are given, which do not move.
+    fixed : array of int
+        States that do not move.
     """
     c, sizes = problem.compiled.constraints, problem.loop_scales.copy()
     rows, columns = c.entries
-    J = _held(problem, Rows.of(at), at.constants)[0][0] * c.counting(at.constants.closures)[rows]
-    J[np.isin(columns, held)] = 0.0
+    J = _jacobians(problem, Rows.of(at), at.constants)[0][0] * c.counting(at.constants.closures)[rows]
+    J[np.isin(columns, fixed)] = 0.0
     stiffness = _stiffness(problem, at)[columns]
     largest = float(np.max(stiffness, initial=0.0))
     for threshold in largest * 10.0 ** -np.arange(LOOPS.decades, -1, -1):
@@ -99,20 +100,20 @@ def closing_scales(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
 
 @np.errstate(all="ignore")
 def independent_states(problem: Problem, at: Point) -> tuple[str, ...]:
-    """Names of the states that do not follow from others, at a point with the projection that moves."""
+    """Names of the independent states, at a point with the projection that moves."""
     follows = set(problem.compiled.constraints.entries[1][partitioned(problem, at).D != 0].tolist())
     return tuple(name for k, name in enumerate(problem.compiled.states) if k not in follows)
 
 
 def _stiffness(problem: Problem, at: Point) -> np.ndarray:
-    """How stiff each coordinate is, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
+    """Stiffness of each coordinate, |d der(rate) / d coordinate| in 1/s2, the same for its rate.
 
-    Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
+    Without the projection: constraints at all levels but the highest, and their multipliers, are left out.
     """
     left = _unprojected(problem.compiled)
     rates, coordinates = left.own.rows, left.own.columns
     stiffness = np.zeros(problem.nx)
-    with suppress(RuntimeError):  # singular: nothing is stiff
+    with suppress(RuntimeError):  # singular: no coordinate counts as stiff
         slopes = left.diagonal(problem.local(at).entries)
         stiffness[coordinates] = stiffness[rates] = np.abs(slopes)
     return stiffness
@@ -120,7 +121,7 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
 
 @once
 def _unprojected(compiled: CompiledModel) -> Elimination:
-    """What is left of the derivatives of the rates by their coordinates, see `_stiffness`."""
+    """Elimination that leaves the derivatives of the rates by their coordinates, see `_stiffness`."""
     plan, c, nx = compiled.reduced.plan, compiled.constraints, compiled.nx
     lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
     equations = [nx + k for k, e in enumerate(plan.residuals) if e not in lower]
@@ -133,13 +134,13 @@ def _unprojected(compiled: CompiledModel) -> Elimination:
 
 
 def _select(levels: list[Block], D: np.ndarray, on: np.ndarray) -> np.ndarray:
-    """Entries of unit vectors in place of D: one coordinate for each constraint of a level, by pivots."""
+    """Unit vectors in place of the rows of D: one dependent coordinate for each constraint, by pivots and matching."""
     selection, follows = np.zeros(len(D)), np.full(len(on), -1)
     rows, columns, sizes = (np.concatenate(k) for k in zip(*(_candidates(p, D, on) for p in levels), strict=True))
     if not rows.size:
         return selection
     (row_of, row), (column_of, column) = (np.unique(k, return_inverse=True) for k in (rows, columns))
-    # A weight of 0 would count as none; on a grid their sums are exact: the search may turn for ever where they round.
+    # A weight of 0 would be no entry. Sums of multiples of the grid are exact; with round-off the matching may cycle.
     weights = np.ceil((1 - np.log(sizes)) / LOOPS.grid) * LOOPS.grid
     weight = scipy.sparse.csr_matrix((weights, (row, column)))
     pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
@@ -150,7 +151,7 @@ def _select(levels: list[Block], D: np.ndarray, on: np.ndarray) -> np.ndarray:
 
 
 def _candidates(block: Block, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Constraints of a block, coordinates that are as many and hold them best, and the sizes of their entries."""
+    """Rows of a block, as many coordinates by pivots, and the magnitudes of their entries: the edges of the matching."""
     active = np.flatnonzero(on[block.rows])[: len(block.columns)]
     if len(active) > SMALL:
         matrix = block.sparse(D)[active]
@@ -162,18 +163,18 @@ def _candidates(block: Block, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray
         matrix = block.dense(D)[active]
         order = pivots(matrix)[: len(active)] if active.size else np.zeros(0, dtype=int)
         row, column = (k.ravel() for k in np.indices((len(active), len(order))))
-        # Singular ones have a matching too.
+        # A singular block has a matching, too.
         sizes = np.maximum(np.abs(matrix[row, order[column]]), np.finfo(float).tiny)
     return block.rows[active[row]], block.columns[order[column]], sizes
 
 
 def _stiffness_weights(levels: list[Block], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
-    """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
+    """Weights of the coordinates: stiff ones, whose motion costs energy, move as little as transversality allows.
 
-    Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
+    Weights fall with the stiffness above a threshold, the lowest for which the projection is transversal enough.
     """
     known: Spaces = {}
-    threshold = max(float(np.square(feedback)), np.finfo(float).tiny)  # in runs over 1e163 s the square would vanish
+    threshold = max(float(np.square(feedback)), np.finfo(float).tiny)  # in runs over 1e163 s the square underflows
     for decade in range(1, LOOPS.decades + 1) if np.any(stiffness) else ():
         weights = 1 / (1 + stiffness / (10.0**decade * threshold))
         if _transversality(levels, J[None], J * weights, known)[0] >= LOOPS.spared:
@@ -184,7 +185,7 @@ def _stiffness_weights(levels: list[Block], J: np.ndarray, stiffness: np.ndarray
 def _transversality(levels: list[Block], J: np.ndarray, D: np.ndarray, known: Spaces | None = None) -> np.ndarray:
     """Cosine of the largest angle between the row spaces of J, shape (n, entries), and D: 1 is best, 0 is singular.
 
-    `known` keeps the row spaces of J for the next D.
+    `known` stores the row spaces of J for the next D.
     """
     least, known = np.ones(len(J)), {} if known is None else known
     for block in levels:
@@ -206,7 +207,7 @@ def _transversality(levels: list[Block], J: np.ndarray, D: np.ndarray, known: Sp
 
 
 def _basis(rows: np.ndarray) -> np.ndarray:
-    """Orthonormal columns that span the same as some rows."""
+    """Orthonormal columns that span a row space."""
     return np.linalg.qr(np.swapaxes(rows, -1, -2))[0]
 
 
@@ -218,19 +219,19 @@ def _projector_norm(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> f
         return np.inf
     n = J.shape[1]
 
-    def there(v: np.ndarray) -> np.ndarray:
+    def forward(v: np.ndarray) -> np.ndarray:
         return D.T @ inner.solve(J @ v)
 
-    def back(v: np.ndarray) -> np.ndarray:
+    def adjoint(v: np.ndarray) -> np.ndarray:
         return J.T @ inner.solve(D @ v, "T")
 
-    projector = scipy.sparse.linalg.LinearOperator((n, n), matvec=there, rmatvec=back, dtype=float)
+    projector = scipy.sparse.linalg.LinearOperator((n, n), matvec=forward, rmatvec=adjoint, dtype=float)
     options = {"return_singular_vectors": False, "v0": np.cos(np.arange(n)), "tol": LOOPS.angles}
     return float(scipy.sparse.linalg.svds(projector, 1, **options)[0])
 
 
 def projection_cosine(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
-    """How well the coordinates that were chosen for a segment still suit each of n positions: 1 is best, 0 is singular.
+    """Return the transversality of the partitioning of a segment at n positions: 1 is best, 0 is singular.
 
     Parameters
     ----------
@@ -241,29 +242,29 @@ def projection_cosine(problem: Problem, rows: Rows, constants: Constants) -> np.
     constants : Constants
         Those of the segment.
     """
-    J, sizes = _held(problem, rows, constants)
+    J, sizes = _jacobians(problem, rows, constants)
     return _transversality(constraint_blocks(problem.compiled), J, constants.D / sizes)
 
 
 def partition_is_valid(problem: Problem, at: Point) -> bool:
-    """Whether the coordinates that follow from others still suit a point, as well as the best choice might but for a factor."""
+    """Return whether the partitioning of a point is still transversal enough there."""
     return bool(projection_cosine(problem, Rows.of(at), at.constants)[0] >= least_cosine(problem))
 
 
 def projection_is_valid(problem: Problem, at: Point) -> bool:
-    """Whether the projection of a point is one that moves, and suits the point."""
+    """Return whether the projection of a point is one that moves, and is transversal enough there."""
     if not at.constants.moves:
         return False
-    J, sizes = _held(problem, Rows.of(at), at.constants)
+    J, sizes = _jacobians(problem, Rows.of(at), at.constants)
     D = J[0] * at.constants.D / sizes**2
     return bool(_transversality(constraint_blocks(problem.compiled), J, D)[0] >= least_cosine(problem))
 
 
-def _held(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
-    """Constraint Jacobians for states in their sizes, and these, as `Constraints.entries` has them."""
+def _jacobians(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
+    """Scaled constraint Jacobians and the scales of the states, in the order of `Constraints.entries`."""
     return problem.scaled_jacobians(rows.x, rows.times, constants.vector)
 
 
 def least_cosine(problem: Problem) -> float:
-    """Cosine below which a projection is worn; where n coordinates move alike, that of the best choice is 1/sqrt(n)."""
+    """Cosine below which a projection is chosen anew; where n coordinates move alike the best choice has 1/sqrt(n)."""
     return min(LOOPS.worn, LOOPS.fit / problem.nx**0.5)

@@ -1,4 +1,4 @@
-"""Ranks, null spaces and pivots of matrices, with rows scaled to length 1."""
+"""Rank, null space, least-norm solutions and pivots of matrices with rows scaled to length 1."""
 
 from __future__ import annotations
 
@@ -29,21 +29,21 @@ def rank(rows: np.ndarray, tolerance: float = RANKS.rank) -> int:
 
 
 def is_regular(rows: scipy.sparse.csc_matrix, tolerance: float = RANKS.rank) -> bool:
-    """Whether all rows of a sparse matrix are independent."""
+    """Return whether all rows of a sparse matrix are independent."""
     if gram(unit_rows(rows), tolerance * _size(rows)):
         return True
     return rank(rows.toarray(), tolerance) == rows.shape[0]
 
 
 def _size(rows: np.ndarray | scipy.sparse.csc_matrix) -> int:
-    """Over which rounding of singular values adds up."""
+    """Number of terms over which the round-off of singular values accumulates."""
     return min(max(rows.shape), RANKS.small)
 
 
 def least_norm(
     rows: np.ndarray | scipy.sparse.csc_matrix, sizes: np.ndarray, cutoff: float
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Return a solver by least squares, of least norm over the sizes of the unknowns; smaller singular values are 0."""
+    """Return a least-squares solver of least norm relative to the sizes of the unknowns, with a cutoff of singular values."""
     if isinstance(rows, np.ndarray):
         matrix = rows * sizes
     else:
@@ -64,7 +64,7 @@ def least_norm(
 def factored(
     J: scipy.sparse.csc_matrix, sizes: np.ndarray, cutoff: float, order: str = "COLAMD"
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Return a solver by sparse factors; where the matrix is singular or has rows to spare, by `least_norm`."""
+    """Return a solver by sparse LU factors, by `least_norm` if the matrix is singular or not square."""
     try:
         return scipy.sparse.linalg.splu(J.tocsc(), permc_spec=order).solve
     except (RuntimeError, ValueError):
@@ -72,14 +72,14 @@ def factored(
 
 
 def null_space(rows: np.ndarray | scipy.sparse.csc_matrix, independent: int | None = None) -> np.ndarray:
-    """Orthonormal rows that span what all given rows map to 0.
+    """Orthonormal rows that span the null space.
 
     Parameters
     ----------
     rows : array or sparse matrix, shape (m, n)
         The rows.
     independent : int, optional
-        Their rank, if it is known better.
+        Their rank, if known.
     """
     if not isinstance(rows, np.ndarray):
         found = complement(rows, RANKS.rank * _size(rows))
@@ -90,12 +90,12 @@ def null_space(rows: np.ndarray | scipy.sparse.csc_matrix, independent: int | No
 
 
 def row_space(rows: np.ndarray) -> np.ndarray:
-    """Orthonormal rows that span the given ones."""
+    """Orthonormal rows that span the row space."""
     return scipy.linalg.svd(scaled(rows), full_matrices=False)[2][: rank(rows)] if rows.size else rows
 
 
 def outside(rows: scipy.sparse.csc_matrix) -> Callable[[np.ndarray], np.ndarray]:
-    """Return a projector on what is orthogonal to all rows."""
+    """Return the orthogonal projector on the null space."""
     own = unit_rows(rows)
     inverse = gram(own, RANKS.rank * _size(rows))
     if inverse:
@@ -105,7 +105,7 @@ def outside(rows: scipy.sparse.csc_matrix) -> Callable[[np.ndarray], np.ndarray]
 
 
 def columns_by_pivots(rows: scipy.sparse.csc_matrix) -> np.ndarray:
-    """As many columns as rows, so that these are as independent in them as pivots find."""
+    """As many columns as rows, chosen by pivots so that the rows are well conditioned in them."""
     null = complement(rows, RANKS.rank * _size(rows))
     if null is None:
         return pivots(rows.toarray())[: rows.shape[0]]
@@ -113,6 +113,6 @@ def columns_by_pivots(rows: scipy.sparse.csc_matrix) -> np.ndarray:
 
 
 def pivots(matrix: np.ndarray) -> np.ndarray:
-    """Columns in the order in which a QR factorisation with column pivoting takes them."""
+    """Columns in the order of a QR factorization with column pivoting."""
     factors: Any = scipy.linalg.qr(matrix, mode="r", pivoting=True)
     return np.asarray(factors[1], dtype=int)

@@ -1,7 +1,7 @@
-"""Which constraints of loops count, by their ranks when numbers are known.
+"""Redundant constraints of loops, by numerical ranks.
 
-A constraint is redundant only if its Jacobian lacks rank at consistent positions all around: where the rank rises after
-a small motion, the position is singular, and all constraints stay.
+Constraints are redundant only if their Jacobian lacks rank in a neighbourhood on the constraints: if the rank rises after a
+small motion, the configuration is singular instead, and all constraints are independent.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ RANKS = POLICY.ranks
 
 @dataclass(frozen=True)
 class Redundancy:
-    """Redundant constraints, by number, and whether the position is singular."""
+    """Redundant constraints, by number, and whether the configuration is singular."""
 
     redundant: tuple[int, ...] = ()
     singular: bool = False
@@ -33,28 +33,28 @@ class Redundancy:
 
 def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
-    held, apart = lowest(problem.compiled)
-    entries = problem.scaled_gradients(at).data[held.entries]
-    doubtful = [block for block in apart if not is_regular(block.sparse(entries), RANKS.nearly)]
+    whole, blocks = lowest(problem.compiled)
+    entries = problem.scaled_gradients(at).data[whole.entries]
+    doubtful = [block for block in blocks if not is_regular(block.sparse(entries), RANKS.nearly)]
     if not doubtful:
         return Redundancy()
     here = [scaled(block.dense(entries)) for block in doubtful]
     best, singular, stuck = list(here), False, False
     for seed in range(RANKS.motions):
-        aside = _aside(problem, at, doubtful, here, seed)
+        aside = _perturbed(problem, at, doubtful, here, seed)
         if aside is None:
             break
         moved, mismatch = close(problem, aside, np.empty(0, int), positions=True)
         if not mismatch < RANKS.moved:
             stuck = True
             continue
-        entries = problem.scaled_gradients(moved).data[held.entries]
+        entries = problem.scaled_gradients(moved).data[whole.entries]
         for k, block in enumerate(doubtful):
-            there = scaled(block.dense(entries))
-            if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
-                best[k], singular = there, True
+            rows = scaled(block.dense(entries))
+            if rank(rows, RANKS.nearly) > rank(best[k], RANKS.nearly):
+                best[k], singular = rows, True
     if stuck and not singular:
-        # What seems to be free is held by what the Jacobian does not show, such as the length of a straight inextensible beam.
+        # Constraints of second order lock the motion that the Jacobian leaves free: the length of a straight inextensible beam.
         return Redundancy((), True)
     weight = _weight(problem.compiled)
     redundant = [row for block, rows in zip(doubtful, best, strict=True) for row in _surplus(block, rows, weight)]
@@ -63,14 +63,14 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
 
 @once
 def lowest(compiled: CompiledModel) -> tuple[Block, list[Block]]:
-    """Return the constraints at their lowest levels, and the parts of these that share no coordinates."""
+    """Return the constraints at their lowest levels, and the connected blocks of these."""
     c = compiled.constraints
     found = block_of(c.pattern, c.lowest, np.arange(compiled.nx))
     return found, connected_blocks(found.places[0], found.places[1], (len(c.lowest), compiled.nx))
 
 
 def _weight(compiled: CompiledModel) -> np.ndarray:
-    """Those that cannot be redundant come first."""
+    """Weights for pivoting: constraints that must not be redundant come first."""
     c = compiled.constraints
     weight = np.full(len(c.rows), RANKS.kept)
     weight[np.array(c.closures, dtype=int)[may_be_redundant(compiled)]] = 1.0
@@ -78,7 +78,7 @@ def _weight(compiled: CompiledModel) -> np.ndarray:
 
 
 def _surplus(block: Block, rows: np.ndarray, weight: np.ndarray) -> list[int]:
-    """Constraints of a block that follow from others of it."""
+    """Redundant constraints of a block."""
     independent = rank(rows)
     if independent == len(rows):
         return []
@@ -87,17 +87,17 @@ def _surplus(block: Block, rows: np.ndarray, weight: np.ndarray) -> list[int]:
 
 
 def is_singular(problem: Problem, at: Point) -> bool:
-    """Whether constraints that are independent elsewhere are nearly dependent in a position."""
+    """Return whether independent constraints are nearly dependent at a point."""
     c = problem.compiled.constraints
     if not c.size:
         return False
-    held = c.lowest[c.counting(at.constants.closures)[c.lowest]]
-    J = problem.scaled_gradients(at)[held].tocsc()
+    rows = c.lowest[c.counting(at.constants.closures)[c.lowest]]
+    J = problem.scaled_gradients(at)[rows].tocsc()
     return not all(is_regular(block.sparse(J.data), RANKS.beside) for block in connected_blocks_of(J))
 
 
-def _aside(problem: Problem, at: Point, doubtful: list[Block], here: list[np.ndarray], seed: int) -> Point | None:
-    """Return a point near by, along what the Jacobian leaves free in each of some parts; None where that is nothing."""
+def _perturbed(problem: Problem, at: Point, doubtful: list[Block], here: list[np.ndarray], seed: int) -> Point | None:
+    """Return a point a small random motion away in the null spaces of blocks; None if there are none."""
     x, random = at.x.copy(), np.random.default_rng(seed)
     for block, J in zip(doubtful, here, strict=True):
         null = null_space(J)

@@ -1,4 +1,4 @@
-"""Large sparse matrices of which all rows are independent: what singular values tell of small ones, by sparse factors."""
+"""Rank, null space and smallest singular value of large sparse matrices with independent rows, by sparse factors."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options":
 
 
 def unit_rows(rows: scipy.sparse.csc_matrix) -> scipy.sparse.csc_matrix:
-    """Rows of length 1, where they are many; rows that vanish stay."""
+    """Rows of large matrices scaled to length 1; rows that vanish stay."""
     if rows.shape[0] <= RANKS.small:
         return rows
     return (scipy.sparse.diags(1 / np.maximum(lengths(rows), np.finfo(float).tiny)) @ rows).tocsc()
 
 
 def gram(rows: scipy.sparse.csc_matrix, tolerance: float) -> Callable[[np.ndarray], np.ndarray] | None:
-    """Return a solver with A A', if the rows A are many and all their singular values exceed a tolerance.
+    """Return a solver with A A' for many rows A, if all their singular values exceed a tolerance; else None.
 
-    A A' - t^2 has as many negative eigenvalues as negative pivots (Sylvester's law of inertia). None if there may be smaller
-    ones, also where the square of the tolerance is rounding.
+    A A' - t^2 has as many negative eigenvalues as negative pivots (Sylvester's law of inertia). The least t is that whose
+    square exceeds round-off.
     """
     if rows.shape[0] <= RANKS.small:
         return None
@@ -42,20 +42,20 @@ def gram(rows: scipy.sparse.csc_matrix, tolerance: float) -> Callable[[np.ndarra
 
 
 def complement(rows: scipy.sparse.csc_matrix, tolerance: float) -> np.ndarray | None:
-    """Orthonormal rows that span what all given rows map to 0, if these are many and independent, and leave little."""
+    """Orthonormal rows that span the null space of many independent rows, if it is small; else None."""
     m, n = rows.shape
     own = unit_rows(rows)
     inverse = gram(own, tolerance) if 0 < n - m <= RANKS.small else None
     if inverse is None:
         return None
     null = np.random.default_rng(0).standard_normal((n, n - m))
-    for _ in range(2):  # the second time for rounding
+    for _ in range(2):  # the second time against round-off
         null = np.linalg.qr(null - own.T @ inverse(own @ null))[0]
     return null.T
 
 
 def least_singular_value(rows: scipy.sparse.csc_matrix) -> float:
-    """Return the smallest singular value of many sparse rows, or columns if these are fewer; 0 where rounding hides it."""
+    """Return the smallest singular value of many sparse rows, or columns if these are fewer; 0 at round-off level."""
     own = rows if rows.shape[0] <= rows.shape[1] else rows.T
     product = (own @ own.T).tocsc()
     n = product.shape[0]

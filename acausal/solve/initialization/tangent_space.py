@@ -1,4 +1,4 @@
-"""The directions that the constraints leave free, in terms of as many states."""
+"""Tangent space of the constraints, and elimination of algebraic unknowns from Jacobians."""
 
 from __future__ import annotations
 
@@ -16,41 +16,41 @@ from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.sparse_blocks import Block, Places, block_of
 
-# Columns in one call of a sparse solver.
+# Right-hand sides in one call of a sparse solver.
 AT_ONCE = 64
 
 
 def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
-    """Choose independent states, and say how all states follow from small changes of them.
+    """Choose independent states and a basis of the tangent space in which their changes are unit vectors.
 
     Returns
     -------
     N : array, shape (nx, n)
-        Changes of all states for a unit change of each independent one; all constraints hold along them.
-    chosen : array of int, shape (n,)
-        The independent states, those along which the motion is largest, coordinates with their rates.
+        Changes of all states for a unit change of each independent one, tangent to all constraints.
+    independent : array of int, shape (n,)
+        The independent states, independent by pivots, coordinates with their rates.
     """
     if not problem.compiled.constraints.size:
         return np.eye(problem.nx), np.arange(problem.nx)
     J, size = problem.scaled_gradients(at), problem.loop_scales
     null = null_space(J)
     rate_of = dict(problem.rates)
-    # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
+    # States without constraints come first, then coordinates before their rates.
     weight = np.full(problem.nx, POLICY.ranks.unheld)
     weight[np.repeat(np.arange(problem.nx), np.diff(J.indptr))[J.data != 0]] = 1.0
     weight[[k for k in rate_of if weight[k] == 1.0]] = POLICY.ranks.coordinate
     order = pivots(null * weight)
     first = [k for k in order[: len(null)] if k not in rate_of.values()]
     paired = np.array(sorted({*first, *(rate_of[k] for k in first if k in rate_of)}), dtype=int)
-    chosen = np.sort(order[: len(null)])
-    if len(paired) == len(null) and not np.array_equal(paired, chosen):
-        chosen = paired if np.linalg.matrix_rank(null[:, paired]) == len(null) else chosen
-    return size[:, None] * np.linalg.solve(null[:, chosen], null).T / size[chosen], chosen
+    independent = np.sort(order[: len(null)])
+    if len(paired) == len(null) and not np.array_equal(paired, independent):
+        independent = paired if np.linalg.matrix_rank(null[:, paired]) == len(null) else independent
+    return size[:, None] * np.linalg.solve(null[:, independent], null).T / size[independent], independent
 
 
 @dataclass(frozen=True)
 class Elimination:
-    """What is left of some rows and columns of a Jacobian once the algebraic unknowns are eliminated.
+    """Schur complement: some rows and columns of a Jacobian with the algebraic unknowns eliminated.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Elimination:
 
     @classmethod
     def of(cls, J: scipy.sparse.csc_matrix, rows: Places, columns: Places, alg: Places, z: Places) -> Elimination:
-        """Return that for all matrices of one sparsity, from one of them; `alg` are equations, `z` algebraic unknowns."""
+        """Return that of all matrices of one pattern; `alg` are algebraic equations, `z` algebraic unknowns."""
         return cls(block_of(J, rows, columns), block_of(J, rows, z), block_of(J, alg, columns), block_of(J, alg, z))
 
     def matrix(self, entries: np.ndarray) -> np.ndarray:
@@ -76,7 +76,7 @@ class Elimination:
         return own - self.through.sparse(entries) @ self._solve(entries)(self.equations.dense(entries))
 
     def diagonal(self, entries: np.ndarray) -> np.ndarray:
-        """Return the diagonal of the same, some columns at a time."""
+        """Return the diagonal of `matrix`, some columns at a time."""
         found = np.zeros(len(self.own.rows))
         on = self.own.places[0] == self.own.places[1]
         found[self.own.places[0, on]] = entries[self.own.entries[on]]
@@ -98,6 +98,6 @@ class Elimination:
 
 @once
 def of_states(compiled: CompiledModel) -> Elimination:
-    """What is left of the derivatives of the states by the states: their matrix A = f_x - f_z g_z^-1 g_x."""
+    """Elimination that leaves the state matrix A = f_x - f_z g_z^-1 g_x."""
     x, z = np.split(np.arange(compiled.nx + compiled.nz), [compiled.nx])
     return Elimination.of(compiled.pattern, x, x, z, z)

@@ -142,12 +142,12 @@ def test_a_choice_wears_out_as_its_coordinate_loses_its_hold():
 @pytest.mark.parametrize("angle", [0.2, 1.0, 2.5])
 def test_the_tangent_is_what_the_constraints_leave_free(angle):
     at = point(np.cos(angle), np.sin(angle), -2 * np.sin(angle), 2 * np.cos(angle))
-    N, chosen = tangent(problem(), at)
+    N, independent = tangent(problem(), at)
     assert N.shape == (4, 2)
     np.testing.assert_allclose(problem().constraints(at)[1] @ N, 0, atol=1e-14)
-    np.testing.assert_allclose(N[chosen], np.eye(2), atol=1e-14)
+    np.testing.assert_allclose(N[independent], np.eye(2), atol=1e-14)
     larger = ("x", "u") if abs(np.sin(angle)) > abs(np.cos(angle)) else ("y", "v")
-    assert {compiled().states[k] for k in chosen} == set(larger)
+    assert {compiled().states[k] for k in independent} == set(larger)
 
 
 def test_eigenvalues_are_those_on_the_circle():
