@@ -67,7 +67,7 @@ def test_a_jump_is_told_once_with_place_and_mend(name, method, intervals):
     law, at, jump = BROKEN[name]
     (text,) = warned(Driven(law=law), stop_time=3, method=method, intervals=intervals)
     assert text.startswith("Driven, ")
-    assert "test_promises.py:" in text
+    assert "test_smoothness.py:" in text
     assert f"near t = {at:.4g} s it jumps by {jump};" in text
     assert "Leave `smooth=True` out" in text
 
