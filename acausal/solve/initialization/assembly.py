@@ -14,7 +14,7 @@ from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.loop_directions import nonparallel_directions
 from acausal.solve.initialization.fixed_states import fixing, soft
-from acausal.solve.initialization.levenberg_marquardt import Matrix, Residuals, descend
+from acausal.solve.initialization.levenberg_marquardt import Matrix, Residuals, levenberg_marquardt
 from acausal.solve.initialization.rank import least_norm
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -171,7 +171,7 @@ def _solve(
         start = at.x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
-        u = descend(evaluate, start, scale)
+        u = levenberg_marquardt(evaluate, start, scale)
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:
             best, smallest = u, left

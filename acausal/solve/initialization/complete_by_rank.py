@@ -16,7 +16,7 @@ from acausal.solve.initialization.assembly import close, refuse_open_loops
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.fixed_states import soft
 from acausal.solve.initialization.independent_constraints import reselected
-from acausal.solve.initialization.minimum_norm_reactions import shared
+from acausal.solve.initialization.minimum_norm_reactions import minimum_norm_reactions
 from acausal.solve.initialization.newton import InitialSystem
 from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.initialization.redundancy import Redundancy, find_redundancy
@@ -53,7 +53,7 @@ def closed_guess(problem: Problem, at: Point, fixed: Mapping[int, int]) -> tuple
     counts = np.array([k not in redundancy.redundant for k in closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
     closed = replace(closed, constants=reselected(problem, closed))
-    closed = replace(closed, constants=shared(problem, closed))
+    closed = replace(closed, constants=minimum_norm_reactions(problem, closed))
     left = {k for k, on in zip(closures, closed.constants.closures, strict=True) if not on}
     redundancy = replace(redundancy, redundant=tuple(sorted(left | set(redundancy.redundant) - set(closures))))
     return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy

@@ -18,11 +18,11 @@ from acausal.solve.diagnosis.initialization import missing_text
 from acausal.solve.initialization.block_solve import by_blocks
 from acausal.solve.initialization.complete_by_rank import closed_guess, complete_by_rank
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, independent_states
-from acausal.solve.initialization.equilibrium import rest, rotation
+from acausal.solve.initialization.equilibrium import find_equilibrium, find_rotation
 from acausal.solve.initialization.fixed_states import fixing, steady_conditions, uses_initial_flag, with_fixed_states
 from acausal.solve.initialization.newton import InitialSystem, algebraic, homotopy, newton, residual_scale
 from acausal.solve.initialization.redundancy import Redundancy
-from acausal.solve.initialization.steady_rotation import turning_states
+from acausal.solve.initialization.steady_rotation import cyclic_states
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.structure import complete
@@ -85,7 +85,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     if initial in ("steady", TURNING):
         first = _sparse(problem, at) if initial == "steady" else None
         at, redundancy, _ = _closed(problem, at)
-        at = rest(problem, at, first) if initial == "steady" else rotation(problem, at)
+        at = find_equilibrium(problem, at, first) if initial == "steady" else find_rotation(problem, at)
     else:
         if loops:
             system, at, redundancy = _chosen_by_rank(problem, at, initial)
@@ -125,7 +125,7 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     steady = initial == "steady"
     fixed = fixing(problem.compiled).items()
     first = {state: row for row, state in reversed(fixed) if not steady or row in steady_conditions(problem.compiled)}
-    cyclic = turning_states(problem, at) if steady else []
+    cyclic = cyclic_states(problem, at) if steady else []
     return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady), cyclic)
 
 

@@ -1,4 +1,4 @@
-"""Least squares: Levenberg's and Marquardt's iteration, of which steps are short where the equations bend."""
+"""Levenberg-Marquardt iteration for underdetermined nonlinear least squares, dense or sparse."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ Matrix: TypeAlias = "np.ndarray | scipy.sparse.csc_matrix"
 Residuals = Callable[[np.ndarray], tuple[np.ndarray, Matrix]]
 
 
-def descend(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Return where residuals are least, near a guess (Madsen, Nielsen and Tingleff 2004, algorithm 3.16).
+def levenberg_marquardt(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Return the minimizer of the residuals near a guess (Madsen, Nielsen and Tingleff 2004, algorithm 3.16).
 
-    A step h in units of `scale` solves (J'J + m I) h = -J'r, as h = -J'(J J' + m I)^-1 r, since residuals are fewer than
-    unknowns; m falls as the gain is what was predicted, and rises where there is none.
+    A step h in units of `scale` solves (J'J + m I) h = -J'r, as h = -J'(J J' + m I)^-1 r, because residuals are fewer than
+    unknowns; m falls if the gain is as predicted, and rises if there is none.
 
     Parameters
     ----------
@@ -29,23 +29,23 @@ def descend(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray
     u : array, shape (n,)
         The guess.
     scale : array, shape (n,)
-        Sizes of the unknowns.
+        Scales of the unknowns.
     """
     r, J = evaluate(u)
-    J, damping, growth = _by_sizes(J, scale), 0.0, 2.0
+    J, damping, growth = _scaled(J, scale), 0.0, 2.0
     for _ in range(LOOPS.evaluations):
         square = J @ J.T
         damping = damping or LOOPS.damping * float(np.max(square.diagonal()))
         try:
             h = -(J.T @ _solved(square, damping, r))
-        except (RuntimeError, np.linalg.LinAlgError):  # no unknown changes any residual
+        except (RuntimeError, np.linalg.LinAlgError):  # J vanishes
             return u
         if not np.linalg.norm(h) > LOOPS.ends * np.linalg.norm(u / scale):
             return u
-        there, ahead = evaluate(u + scale * h)
-        gain = float((r @ r - there @ there) / (h @ (damping * h - J.T @ r)))
+        new, slope = evaluate(u + scale * h)
+        gain = float((r @ r - new @ new) / (h @ (damping * h - J.T @ r)))
         if gain > 0:
-            u, r, J = u + scale * h, there, _by_sizes(ahead, scale)
+            u, r, J = u + scale * h, new, _scaled(slope, scale)
             damping *= max(1 / 3, 1 - (2 * gain - 1) ** 3)
             growth = 2.0
         else:
@@ -54,7 +54,7 @@ def descend(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray
     return u
 
 
-def _by_sizes(J: Matrix, scale: np.ndarray) -> Matrix:
+def _scaled(J: Matrix, scale: np.ndarray) -> Matrix:
     return J * scale if isinstance(J, np.ndarray) else (J @ scipy.sparse.diags(scale)).tocsc()
 
 

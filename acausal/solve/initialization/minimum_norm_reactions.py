@@ -1,7 +1,7 @@
-"""How constraints of parts that follow from one another share what works on them: as little of it as possible.
+"""Minimum-norm reactions of redundant constraints of components, which are statically indeterminate.
 
-Where m works on constraints with the Jacobian J, m and m + u do the same to the motion if u' J = 0. Of all m, the least has
-u' m = 0 for each such u, that is P m = 0 with P the projector on them; as many of its rows as there are u tell that.
+Multipliers m and m + u of constraints with the Jacobian J cause the same motion if u' J = 0. The m of least norm satisfies
+u' m = 0 for all such u, that is P m = 0 with P the projector on them, in as many rows of P as there are independent u.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 
-def shared(problem: Problem, at: Point) -> Constants:
-    """Return the constants of a point with the shares that suit it."""
+def minimum_norm_reactions(problem: Problem, at: Point) -> Constants:
+    """Return the constants of a point with the projector P for it."""
     c, loops = problem.compiled.constraints, problem.compiled.reduced.flat.loops
     own = c.lowest[[c.closures[k] for k in loops.of_parts]] if c.closures else np.empty(0, dtype=int)
     spare = int(np.sum(at.constants.closures[loops.of_parts] == 0)) if len(own) else 0

@@ -1,4 +1,4 @@
-"""Newton steps that change what equations determine as little as possible, and leave the rest."""
+"""Minimum-norm Newton step of a singular system, and the motion that the system leaves free."""
 
 from __future__ import annotations
 
@@ -11,17 +11,19 @@ from acausal.solve.initialization.rank import scaled
 REST = POLICY.rest
 
 
-def least_change(value: np.ndarray, J: np.ndarray, way: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the least squares step for what rows determine, and the part of a way that they leave free.
+def minimum_norm_step(
+    value: np.ndarray, J: np.ndarray, way: np.ndarray, scale: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the least-squares step of least norm, and the projection of a wanted change on the null space.
 
     Parameters
     ----------
     value, J : arrays, shapes (m,), (m, n)
         Residuals, and their Jacobian.
     way, scale : arrays, shape (n,)
-        Changes of the unknowns, and their sizes.
+        Wanted change of the unknowns, and their scales.
     """
-    # Stiff parts beside others that are held by weight alone: without equilibration these would count as free.
+    # Equilibration of columns: beside stiff parts, those that only weight supports would count as free.
     size = scale
     for _ in range(2):
         inside = np.linalg.norm(scaled(J * size), axis=0)
@@ -31,16 +33,16 @@ def least_change(value: np.ndarray, J: np.ndarray, way: np.ndarray, scale: np.nd
         return size * found, np.zeros_like(way)
     U, s, V = np.linalg.svd(scaled(J * size), full_matrices=True)
     rank = int(np.sum(s > REST.weak))
-    held, free = V[:rank], V[rank:]
-    step = -held.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
+    determined, free = V[:rank], V[rank:]
+    step = -determined.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
     return size * step, scale * _along(free * size / scale, way / scale)
 
 
 def _determined(value: np.ndarray, J: np.ndarray) -> np.ndarray | None:
-    """Return the step where rows determine all unknowns, by orthogonal factors, which take a tenth of the time of an SVD.
+    """Return the step if the rows determine all unknowns, by QR in a tenth of the time of an SVD; else, or if small, None.
 
-    The least singular value is at least 1 / (|R^-1|_1 sqrt(n)), R the triangular factor (Higham 2002, section 15.6). None where
-    it may be `weak`, and for small matrices.
+    The least singular value is at least 1 / (|R^-1|_1 sqrt(n)), R the triangular factor (Higham 2002, section 15.6); it must
+    exceed `REST.weak`.
     """
     m, n = J.shape
     if n <= POLICY.ranks.small or m < n:
@@ -55,5 +57,5 @@ def _determined(value: np.ndarray, J: np.ndarray) -> np.ndarray | None:
 
 
 def _along(rows: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """Part of a way in the space that rows span."""
+    """Projection of a change on the space that rows span."""
     return rows.T @ np.linalg.lstsq(rows.T, way, rcond=POLICY.ranks.rank)[0] if len(rows) else np.zeros_like(way)

@@ -1,4 +1,4 @@
-"""Where a motion comes to rest: its steps grow, and lose energy."""
+"""Pseudo-transient continuation: follow the motion to an equilibrium by growing implicit steps that dissipate energy."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import scipy
 
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.initialization.reduced_linearization import Linearized, Linearizer, moved
+from acausal.solve.initialization.reduced_linearization import Linearizer, ReducedLinearization, moved
 from acausal.solve.point import Point
 
 REST = POLICY.rest
 
 
 def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
-    """Return where the motion leads by steps of the linearly implicit Euler method that grow.
+    """Return the end of the motion by growing steps of the linearly implicit Euler method.
 
     Parameters
     ----------
@@ -25,9 +25,9 @@ def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
     at : Point
         Where it begins.
     far : float
-        How far a step may lead, in nominal values of coordinates.
+        Largest step, in nominal values of coordinates.
     bent : float
-        What a second iteration may change in a step, over it.
+        Largest change of a step by a second Newton iteration, relative to the step.
     """
     try:
         here = own.linearized(own.closed(at))
@@ -48,36 +48,38 @@ def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
     return here.point
 
 
-def _fastest(here: Linearized) -> float:
-    """Largest eigenvalue in 1/s; its size is enough."""
+def _fastest(here: ReducedLinearization) -> float:
+    """Spectral radius in 1/s."""
     n = here.nx
     if n > POLICY.ranks.small:
         options = {"which": "LM", "return_eigenvectors": False, "v0": np.cos(np.arange(n)), "tol": POLICY.loops.angles}
-        with suppress(RuntimeError):  # it does not converge
+        with suppress(RuntimeError):  # no convergence
             operator = scipy.sparse.linalg.LinearOperator((n, n), matvec=here.times, dtype=float)
             return float(np.max(np.abs(scipy.sparse.linalg.eigs(operator, 2, **options))))
     return float(np.max(np.abs(np.linalg.eigvals(here.A)), initial=0.0))
 
 
-def _euler(own: Linearizer, here: Linearized, h: float, far: float, bent: float) -> tuple[Linearized | None, float]:
-    """Take a step of length h, and tell by how much the next one may be longer.
+def _euler(
+    own: Linearizer, here: ReducedLinearization, h: float, far: float, bent: float
+) -> tuple[ReducedLinearization | None, float]:
+    """Take a step of length h; return the factor of the next step size as well.
 
-    None where it cannot be taken, leads too far, or a second iteration would change it much. Both measures grow as h does.
+    None if the step fails, leads too far, or a second iteration would change it much. Both measures are proportional to h.
     """
-    moves, shorter = np.isin(np.arange(own.nx), own.rows), 1 / REST.shrinkage  # meters stay
+    moves, shorter = np.isin(np.arange(own.nx), own.rows), 1 / REST.shrinkage  # counters stay
     try:
         solve = here.implicit(h)
     except RuntimeError:
         return None, shorter
-    step, follows = solve(own.unturned(np.where(moves, h * here.rates, 0.0)))
-    step = own.unturned(step)
+    step, follows = solve(own.without_rotation(np.where(moves, h * here.rates, 0.0)))
+    step = own.without_rotation(step)
     if not np.all(np.isfinite(step)) or own.far(step) > far:
         return None, shorter
     try:
         there = own.linearized(own.closed(moved(here.point, step, follows)))
     except InitializationError:
         return None, shorter
-    left = own.unturned(np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0))
+    left = own.without_rotation(np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0))
     size, change = own.size(step), own.size(solve(left)[0])
     if not change <= bent * size:
         return None, shorter

@@ -1,4 +1,4 @@
-"""Rates and conditions at points where loops are closed, and their Jacobians by the states."""
+"""Rates and conditions at points with closed loops, and their Jacobians with the algebraic unknowns eliminated."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import scipy
 from acausal.policy import POLICY
 from acausal.solve.initialization.assembly import close, polished, tighten
 from acausal.solve.initialization.coordinate_partitioning import choose_projection, partition_is_valid
-from acausal.solve.initialization.equilibrium_test import kinematic, meters
+from acausal.solve.initialization.equilibrium_test import counters, kinematic
 from acausal.solve.initialization.newton import NoConvergence, algebraic
 from acausal.solve.initialization.rank import factored
 from acausal.solve.point import Point
@@ -20,7 +20,7 @@ from acausal.solve.problem import Problem
 
 
 @dataclass(frozen=True, eq=False)
-class Linearized:
+class ReducedLinearization:
     """Rates and conditions at a point, and their Jacobians by the states with the algebraic unknowns eliminated.
 
     Attributes
@@ -32,7 +32,7 @@ class Linearized:
     J : csc_matrix
         Their Jacobian by states and algebraic unknowns.
     nominal : array
-        Sizes of these.
+        Nominal values of these.
     """
 
     point: Point
@@ -66,7 +66,7 @@ class Linearized:
         return self._eliminated(slice(len(self.nominal), None))
 
     def adds_up(self, sizes: np.ndarray) -> np.ndarray:
-        """Return the size of the terms in each row of A, for states of some sizes."""
+        """Return the size of the terms in each row of A, for states of these sizes."""
         direct, through = (abs(self.J[: self.nx, own]) for own in (slice(0, self.nx), slice(self.nx, None)))
         return np.linalg.norm((direct.toarray() + through @ np.abs(self._follow)) * sizes, axis=1)
 
@@ -96,7 +96,7 @@ class Linearized:
         return solve
 
     def follows(self, step: np.ndarray) -> np.ndarray:
-        """Return the changes of the algebraic unknowns with those of the states."""
+        """Return the changes of the algebraic unknowns that follow a step of the states."""
         return self._follow @ step
 
     @cached_property
@@ -106,7 +106,7 @@ class Linearized:
 
     @cached_property
     def _follow(self) -> np.ndarray:
-        """Changes of the algebraic unknowns with the states."""
+        """Derivatives of the algebraic unknowns by the states."""
         nx, n = self.nx, len(self.nominal)
         if n == nx:
             return np.zeros((0, nx))
@@ -118,31 +118,31 @@ class Linearized:
 
 
 class Linearizer:
-    """Linearise near a guess.
+    """Linearization near a guess.
 
     Parameters
     ----------
     problem : Problem
         The model.
     guess : Point
-        A point where loops are closed.
+        A point with closed loops.
     space : array, shape (nx, k), optional
-        Cyclic coordinates, if the search is for a steady rotation; see `rotation.cyclic`.
+        Cyclic coordinates, to search for a steady rotation; see `steady_rotation.cyclic_spaces`.
     """
 
     def __init__(self, problem: Problem, guess: Point, space: np.ndarray | None = None) -> None:
         self.problem, self.guess = problem, guess
-        self.turns = space is not None
+        self.rotates = space is not None
         self.space = np.zeros((problem.nx, 0)) if space is None else space
         compiled, self.nx = problem.compiled, problem.nx
         self.scale = problem.nominal[: self.nx]
-        self.rows = np.setdiff1d(np.arange(self.nx), meters(compiled))
+        self.rows = np.setdiff1d(np.arange(self.nx), counters(compiled))
         pairs = [coordinate for coordinate, _ in problem.rates]
         self.coordinates = np.array(sorted({*pairs, *kinematic(compiled)}), dtype=int)
         self.still = self._still()
 
     def _still(self) -> scipy.sparse.csr_matrix:
-        """Which combinations of rates vanish: one in each row; all but meters, and but those of cyclic coordinates."""
+        """Combinations of rates that vanish, one in each row: all but those of counters and cyclic coordinates."""
         turning = np.flatnonzero(np.any(self.space, axis=1))
         others = np.setdiff1d(self.rows, turning)
         single = scipy.sparse.identity(self.nx, format="csr")[others]
@@ -153,22 +153,22 @@ class Linearizer:
         across[:, turning] = own
         return scipy.sparse.vstack([single, across]).tocsr()
 
-    def unturned(self, step: np.ndarray) -> np.ndarray:
-        """Return a step without what turns cyclic coordinates."""
+    def without_rotation(self, step: np.ndarray) -> np.ndarray:
+        """Return a step without its part along cyclic coordinates."""
         return step - self.scale * (self.space @ (self.space.T @ (step / self.scale)))
 
-    def linearized(self, at: Point) -> Linearized:
+    def linearized(self, at: Point) -> ReducedLinearization:
         """Solve for the algebraic unknowns, and linearise."""
         at = algebraic(self.problem, at)
         local = self.problem.local(at)
         if not (np.all(np.isfinite(local.value)) and np.all(np.isfinite(local.jacobian.data))):
             raise NoConvergence("the equations have no value there", at, 0.0)
-        return Linearized(at, local.value, local.jacobian.tocsc(), self.problem.nominal)
+        return ReducedLinearization(at, local.value, local.jacobian.tocsc(), self.problem.nominal)
 
     def closed(self, at: Point) -> Point:
-        """Close the loops, and choose again which states follow from others.
+        """Close the loops, and choose the coordinate partitioning again.
 
-        Only states that follow from others move, if that closes them: moving stiff parts as well would drive the motion.
+        Only dependent states move, if that closes the loops: moving stiff parts as well would add energy.
         """
         c, left = self.problem.compiled.constraints, np.inf
         if not c.size:
@@ -192,10 +192,10 @@ class Linearizer:
         return float(np.max(np.abs(step) / self.scale, initial=0.0))
 
     def far(self, step: np.ndarray) -> float:
-        """How far a step leads, in nominal values of what has a rate among the states, or whose rate is kinematics."""
+        """Largest change of a coordinate in a step, in nominal values: of states with a rate among the states or kinematic."""
         return float(np.max(np.abs(step / self.scale)[self.coordinates], initial=0.0))
 
 
 def moved(at: Point, step: np.ndarray, follows: np.ndarray | float = 0.0) -> Point:
-    """Return a point a step of the states away, and one of the algebraic unknowns, from which these are solved for."""
+    """Return the point after a step of the states, and of the algebraic unknowns as guesses for these."""
     return replace(at, x=at.x + step, z=at.z + follows)

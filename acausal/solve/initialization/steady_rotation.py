@@ -1,8 +1,8 @@
 """Steady rotation: only cyclic coordinates change, at constant rates.
 
-A cyclic coordinate enters no equation but its own (Goldstein 1980, section 8.2), as the angle of a shaft does. Where elastic
-shafts join rotors, it is a sum of angles. Cyclic coordinates therefore form a space of directions: the largest one, among the
-coordinates, that the Jacobian of the rates maps into itself, and that the constraints leave free.
+A cyclic coordinate enters no equation but its own (Goldstein 1980, section 8.2), such as the angle of a shaft. With rotors on
+elastic shafts it is a sum of angles. Cyclic coordinates therefore span a space of directions: the largest one, among the
+coordinates, that the Jacobian of the rates maps into itself and that is tangent to the constraints.
 """
 
 from __future__ import annotations
@@ -32,18 +32,18 @@ REST, RANKS = POLICY.rest, POLICY.ranks
 
 
 @dataclass(frozen=True, eq=False)
-class Turning:
+class SteadyRotation:
     """A steady rotation.
 
     Attributes
     ----------
     space : array, shape (nx, k)
-        Directions of the cyclic coordinates, see `cyclic`.
+        Directions of the cyclic coordinates, see `cyclic_spaces`.
     rates : array, shape (nx,)
         Rates of the states: those of cyclic coordinates, all others 0.
     seconds : float
-        How long the fastest of them takes for a change of its nominal value: 1 rad. Where none is a state, a coordinate that
-        time prescribes.
+        Time in which the fastest of them, or of the coordinates prescribed in time if there are none, changes by its nominal
+        value: 1 rad.
     """
 
     space: np.ndarray
@@ -51,14 +51,14 @@ class Turning:
     seconds: float
 
     def on(self, problem: Problem, at: Point, turn: float) -> Point:
-        """Return the point turned on by some nominal values; the time goes on only where that turns it."""
+        """Return the point after a rotation by some nominal values; time advances only if it prescribes the rotation."""
         span = turn * self.seconds
         if not self.space.size:
             return algebraic(problem, replace(at, time=at.time + span))
         there = self._moved(problem, at, span * self.rates)
         if np.allclose(self.along(problem, there), self.rates, rtol=REST.still, atol=0.0):
             return there
-        # Quaternions turn at rates that depend on themselves: the classical Runge-Kutta method.
+        # Rates of quaternions depend on these: classical Runge-Kutta method.
         step, there = span / REST.parts, at
         for _ in range(REST.parts):
             k1 = self.along(problem, there)
@@ -81,11 +81,12 @@ class Turning:
         return algebraic(problem, problem.completed(moved(at, step)))
 
 
-def cyclic(problem: Problem, at: Point) -> list[np.ndarray]:
-    """Return spaces of cyclic coordinates near a point where loops are closed.
+def cyclic_spaces(problem: Problem, at: Point) -> list[np.ndarray]:
+    """Return spaces of cyclic coordinates near a point with closed loops.
 
-    The first holds those that are cyclic in any position, the second those that may be so in this one alone: in a symmetrical
-    one, the loads on a rotor of two blades do not depend on its angle. The last one is empty, for what turns with time.
+    The first contains those that are cyclic in any position, the second those that may be cyclic in this one alone: in a
+    symmetric position the loads on a rotor of two blades do not depend on its angle. The last one is empty, for rotations
+    prescribed in time.
 
     Returns
     -------
@@ -123,43 +124,43 @@ def _candidates(compiled: CompiledModel) -> np.ndarray:
 
 
 def is_steady(problem: Problem, at: Point) -> bool:
-    """Whether a consistent point is at rest or in steady rotation."""
-    return at_rest(problem, at) or turning(problem, at, cyclic(problem, at)) is not None
+    """Return whether a consistent point is in equilibrium or in steady rotation."""
+    return at_rest(problem, at) or steady_rotation(problem, at, cyclic_spaces(problem, at)) is not None
 
 
-def turning_states(problem: Problem, at: Point) -> list[int]:
+def cyclic_states(problem: Problem, at: Point) -> list[int]:
     """Return the states of cyclic coordinates, if a consistent point is in steady rotation."""
-    found = None if at_rest(problem, at) else turning(problem, at, cyclic(problem, at))
+    found = None if at_rest(problem, at) else steady_rotation(problem, at, cyclic_spaces(problem, at))
     return np.flatnonzero(np.any(found.space, axis=1)).tolist() if found else []
 
 
-def turning(problem: Problem, at: Point, spaces: list[np.ndarray]) -> Turning | None:
+def steady_rotation(problem: Problem, at: Point, spaces: list[np.ndarray]) -> SteadyRotation | None:
     """Return the steady rotation of a consistent point along one of some spaces; None if it is in none."""
     size, rates = problem.nominal[: problem.nx], problem.local(at).value[: problem.nx]
     if not np.all(np.isfinite(rates)) or not equations_hold(problem, at):
         return None
     allowed = rates_allowed(problem, at)
     for space in spaces:
-        found = Turning(space, np.zeros(problem.nx), np.inf)
+        found = SteadyRotation(space, np.zeros(problem.nx), np.inf)
         found = replace(found, rates=found.along(problem, at))
         if not _vanishes(problem, at, rates - found.rates):
             continue
         fastest = float(np.max(np.abs(found.rates) / size, initial=0.0)) if space.size else _prescribed(problem, at)
         if fastest > 0 and (not space.size or np.any(np.abs(found.rates) > allowed)):
             found = replace(found, seconds=1 / fastest)
-            if _is_steady(problem, at, found):
+            if _stays_steady(problem, at, found):
                 return found
     return None
 
 
 def changes(here: np.ndarray, there: np.ndarray) -> np.ndarray:
-    """Which entries of a Jacobian differ between two points, by columns in nominal values."""
+    """Return which entries of a Jacobian, with columns in nominal values, differ between two points."""
     row = np.max(np.abs(here), axis=1, keepdims=True, initial=0.0)
     return np.abs(there - here) > REST.periodic * row + REST.faint * np.max(row, initial=0.0)
 
 
 def _prescribed(problem: Problem, at: Point) -> float:
-    """Largest rate of a coordinate in nominal values, where time drives it without acceleration; 0 where it accelerates."""
+    """Largest rate of a coordinate that is prescribed in time, in nominal values; 0 if one accelerates."""
     flat, system = problem.compiled.reduced.flat, problem.compiled.reduced.plan.system
     _, call, _, variables = derivatives(problem.compiled)
     values = np.abs(call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)[0][: len(variables)])
@@ -169,8 +170,8 @@ def _prescribed(problem: Problem, at: Point) -> float:
     return 0.0 if accelerates else float(np.max((values / nominal)[~is_rate], initial=0.0))
 
 
-def _is_steady(problem: Problem, at: Point, found: Turning) -> bool:
-    """Whether other rates vanish, at other angles as well, and no rate changes with time, as it does where a drive speeds up."""
+def _stays_steady(problem: Problem, at: Point, found: SteadyRotation) -> bool:
+    """Return whether other rates vanish at other angles and times as well, which they do not while a drive accelerates."""
     try:
         later = algebraic(problem, replace(at, time=at.time + REST.later * found.seconds))
         turned = [found.on(problem, at, turn) for turn in REST.turns]
@@ -182,13 +183,13 @@ def _is_steady(problem: Problem, at: Point, found: Turning) -> bool:
 
 
 def _vanishes(problem: Problem, at: Point, rates: np.ndarray) -> bool:
-    """Whether rates are 0 but for what is allowed, and loops are closed."""
+    """Return whether rates vanish within tolerance and loops are closed."""
     own = Linearizer(problem, at).rows
     return bool(np.all(np.abs(rates[own]) <= rates_allowed(problem, at)[own])) and loops_closed(problem, at)
 
 
 def _jacobians(own: Linearizer, at: Point) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobians of the rates by the states, in nominal values, and of the constraints; and what adds up in each rate."""
+    """Jacobian of rates, in nominal values, and constraints by the states; and the size of the terms of each row."""
     here = own.linearized(at)
     gradients = (
         own.problem.scaled_gradients(at).toarray() if own.problem.compiled.constraints.size else np.zeros((0, own.nx))
@@ -199,7 +200,7 @@ def _jacobians(own: Linearizer, at: Point) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _largest(own: Linearizer, found: list[tuple[np.ndarray, np.ndarray]], coordinates: np.ndarray) -> np.ndarray:
-    """The largest space of coordinates that all Jacobians of the rates map into itself, and those of constraints to 0."""
+    """Largest space of coordinates that all Jacobians of the rates map into itself, and those of constraints to 0."""
     space = np.eye(own.nx)[:, coordinates]
     counts = np.setdiff1d(np.arange(found[0][0].shape[0]), np.setdiff1d(np.arange(own.nx), own.rows))
     while space.size:

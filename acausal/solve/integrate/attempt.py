@@ -19,7 +19,7 @@ from acausal.solve.initialization.coordinate_partitioning import (
     projection_is_valid,
 )
 from acausal.solve.initialization.independent_constraints import reselected
-from acausal.solve.initialization.minimum_norm_reactions import shared
+from acausal.solve.initialization.minimum_norm_reactions import minimum_norm_reactions
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import refined
@@ -137,7 +137,7 @@ class Integrator:
             return at
         self.trace.choices += 1
         there = replace(at, constants=constants)
-        there = replace(there, constants=shared(self.problem, there))
+        there = replace(there, constants=minimum_norm_reactions(self.problem, there))
         there = replace(there, constants=choose_projection(self.problem, there, spare=False, moves=True))
         return algebraic(self.problem, self.problem.completed(there))
 

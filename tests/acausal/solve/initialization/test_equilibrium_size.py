@@ -16,14 +16,7 @@ from components import BodyRod, Fixed, FixedRotation, Revolute, SubstructuredBea
 
 def leg(volumes: int) -> SubstructuredBeam:
     return SubstructuredBeam(
-        length=1,
-        E=2.1e11,
-        rho=7800,
-        A=5e-3,
-        J=0.1 * 0.05**3 / 12,
-        volumes=volumes,
-        geometric_stiffness=True,
-        beta=1e-3,
+        length=1, E=2.1e11, rho=7800, A=5e-3, J=0.1 * 0.05**3 / 12, volumes=volumes, geometric_stiffness=True, beta=1e-3
     )
 
 
@@ -100,9 +93,9 @@ def test_orthogonal_factors_give_the_step_of_singular_values(monkeypatch: pytest
     random = np.random.default_rng(1)
     J = random.standard_normal((140, 120)) * 10.0 ** random.uniform(-4, 4, 120)
     value, way, scale = random.standard_normal(140), random.standard_normal(120), 10.0 ** random.uniform(-2, 2, 120)
-    quick = minimum_norm_step.least_change(value, J, way, scale)
+    quick = minimum_norm_step.minimum_norm_step(value, J, way, scale)
     monkeypatch.setattr(minimum_norm_step, "_determined", lambda *_: None)
-    slow = minimum_norm_step.least_change(value, J, way, scale)
+    slow = minimum_norm_step.minimum_norm_step(value, J, way, scale)
     np.testing.assert_allclose(quick[0], slow[0], rtol=1e-8)
     np.testing.assert_allclose(quick[1], slow[1], atol=1e-12)
 
@@ -111,7 +104,7 @@ def test_rows_that_leave_something_free_keep_to_singular_values() -> None:
     random = np.random.default_rng(2)
     J = random.standard_normal((140, 119)) @ random.standard_normal((119, 120))
     way = random.standard_normal(120)
-    step, free = minimum_norm_step.least_change(np.zeros(140), J, way, np.ones(120))
+    step, free = minimum_norm_step.minimum_norm_step(np.zeros(140), J, way, np.ones(120))
     null = np.linalg.svd(J)[2][-1]
     np.testing.assert_allclose(step, 0, atol=1e-12)
     np.testing.assert_allclose(free, null * (null @ way), atol=1e-9)
