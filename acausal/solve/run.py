@@ -17,11 +17,11 @@ from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.signals import Signals
-from acausal.solve.checks.constraint_drift import first_refusal, refuse_departure
-from acausal.solve.checks.loop_drift import opened
-from acausal.solve.checks.mobility import locked
-from acausal.solve.checks.smoothness import broken_promises
-from acausal.solve.checks.validity import doubts
+from acausal.solve.checks.constraint_drift import first_violation, refuse_constraint_drift
+from acausal.solve.checks.loop_drift import loop_drift
+from acausal.solve.checks.mobility import mobility_warnings
+from acausal.solve.checks.smoothness import smoothness_warnings
+from acausal.solve.checks.validity import validity_warnings
 from acausal.solve.diagnosis.failure import failure_text
 from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.chattering import Chattering
@@ -82,7 +82,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     # A run costs what it costs, whichever run before it left its beginning.
     seconds = beginning.seconds + clock.perf_counter() - begun - building
     done.integrator.trace.building = building + at_first - made
-    met = None if isinstance(done.failure, KeyboardInterrupt) else first_refusal(done.integrator, done.first)
+    met = None if isinstance(done.failure, KeyboardInterrupt) else first_violation(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)
     result = _result(done, plan, _counted(done, plan, task, seconds), task.energy)
@@ -99,7 +99,7 @@ def sizes_of_run(compiled: CompiledModel, p: np.ndarray, task: Task) -> np.ndarr
     done = _integrated(*_begun(compiled, p, task), task)
     if isinstance(done.failure, KeyboardInterrupt):
         raise done.failure
-    refuse_departure(done.integrator, done.first)
+    refuse_constraint_drift(done.integrator, done.first)
     return done.integrator.settings.nominal
 
 
@@ -258,9 +258,9 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     whole = np.array_equal(rows.times, times)
     output = rows if whole else rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
-    found = doubts(evaluate) + broken_promises(integrator, evaluate)
-    found += locked(integrator.problem, done.begun.point, done.begun.redundancy.redundant)
-    found += opened(integrator.consistent, rows) + done.course.idle()
+    found = validity_warnings(evaluate) + smoothness_warnings(integrator, evaluate)
+    found += mobility_warnings(integrator.problem, done.begun.point, done.begun.redundancy.redundant)
+    found += loop_drift(integrator.consistent, rows) + done.course.idle()
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
         if integrator.trace.rough:

@@ -1,4 +1,4 @@
-"""Whether constraints of parts that were taken as redundant still hold in a run."""
+"""Drift of redundant constraints of components in a run."""
 
 from __future__ import annotations
 
@@ -6,31 +6,31 @@ import numpy as np
 
 from acausal.errors import SimulationError
 from acausal.policy import POLICY
-from acausal.solve.checks.separation import Meeting, first_meeting
+from acausal.solve.checks.separation import Violation, first_coincidence
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.looks import spread
 from acausal.solve.point import Point, Rows
 
 
-def first_refusal(integrator: Integrator, first: Point) -> Meeting | None:
-    """Return the first time at which points meet or constraints of parts stop holding; arguments as those of both."""
-    found = (first_meeting(integrator, first), first_departure(integrator, first))
+def first_violation(integrator: Integrator, first: Point) -> Violation | None:
+    """Return the earlier of the first coincidence of points and the first drift of constraints; None if neither occurs."""
+    found = (first_coincidence(integrator, first), first_constraint_drift(integrator, first))
     return min(filter(None, found), key=lambda end: end.time, default=None)
 
 
-def refuse_departure(integrator: Integrator, first: Point) -> None:
-    """Raise SimulationError if constraints of parts stop holding; arguments as of `first_departure`."""
-    if found := first_departure(integrator, first):
+def refuse_constraint_drift(integrator: Integrator, first: Point) -> None:
+    """Raise SimulationError if a redundant constraint of a component is violated, see `first_constraint_drift`."""
+    if found := first_constraint_drift(integrator, first):
         raise SimulationError(found.text)
 
 
-def first_departure(integrator: Integrator, first: Point) -> Meeting | None:
-    """Return when constraints of parts that followed from others stop holding, and what to say then.
+def first_constraint_drift(integrator: Integrator, first: Point) -> Violation | None:
+    """Return the first violation of redundant constraints of components, None if there is none.
 
     Parameters
     ----------
     integrator : Integrator
-        What it computed.
+        With the results of the run.
     first : Point
         The first row of the run.
     """
@@ -47,11 +47,11 @@ def first_departure(integrator: Integrator, first: Point) -> Meeting | None:
     else:
         return None
     place = next(k for k in range(before, place + 1) if _broken(integrator, rows, k, watched))
-    return Meeting(float(rows.times[place]), _text(integrator, rows, place, watched))
+    return Violation(float(rows.times[place]), _text(integrator, rows, place, watched))
 
 
 def _broken(integrator: Integrator, rows: Rows, place: int, watched: list[int]) -> list[tuple[int, float]]:
-    """Which closures that do not count are off at a row, and by how much."""
+    """Return the redundant closures that are violated at a row, and their residuals."""
     problem, c = integrator.problem, integrator.compiled.constraints
     found, _ = integrator.consistent(rows[place : place + 1])
     at = problem.projected(problem.point(found, 0))
@@ -70,7 +70,7 @@ def _text(integrator: Integrator, rows: Rows, place: int, watched: list[int]) ->
         [
             f"the run stopped at t = {time:.6g} s: {which} from the others:",
             *lines,
-            "No motion may satisfy all constraints there. Let one of the parts give way, with a spring and a damper in place of "
-            "its constraint; or start from a position in which the constraints are independent.",
+            "No motion may satisfy all constraints there. Replace the constraint of one part by a spring and a damper, or start "
+            "from a position in which the constraints are independent.",
         ]
     )

@@ -1,4 +1,4 @@
-"""Whether loops whose constraints were taken as redundant stay closed in a run."""
+"""Drift of the redundant constraints of closed loops in a run."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from acausal.solve.looks import spread
 from acausal.solve.point import Rows
 
 
-def opened(consistent: Consistent, rows: Rows) -> list[str]:
-    """Name loops that open in a run although what closes them seemed to follow from other constraints.
+def loop_drift(consistent: Consistent, rows: Rows) -> list[str]:
+    """Return warnings on loops that open in a run because a redundant constraint no longer follows from the others.
 
     Parameters
     ----------
     consistent : Consistent
-        Of the run.
+        Solver for the algebraic unknowns of the run.
     rows : Rows
-        Of the run, of which some are looked at, the last one among them.
+        Rows of the run, of which a sample is checked, including the last one.
     """
     problem = consistent.problem
     flat, c = problem.compiled.reduced.flat, problem.compiled.constraints
@@ -26,23 +26,23 @@ def opened(consistent: Consistent, rows: Rows) -> list[str]:
         return []
     some = rows[spread(len(rows), POLICY.loops.seen)]
     off = np.any(problem.compiled.layout.closures_of(some.constants) == 0, axis=0)
-    dropped = [k for k in np.flatnonzero(off).tolist() if flat.loops.closures[k].loop >= 0]
-    if not dropped:
+    redundant = [k for k in np.flatnonzero(off).tolist() if flat.loops.closures[k].loop >= 0]
+    if not redundant:
         return []
     some, _ = consistent(some)
     points = [problem.projected(problem.point(some, place)) for place in range(len(some))]
-    apart = np.nan_to_num(np.abs([problem.constraints(at)[0] for at in points]))
-    wide: dict[int, tuple[float, float]] = {}
-    for k in dropped:
+    residuals = np.nan_to_num(np.abs([problem.constraints(at)[0] for at in points]))
+    drifts: dict[int, tuple[float, float]] = {}
+    for k in redundant:
         row = c.lowest[c.closures[k]]
-        place = int(np.argmax(apart[:, row]))
-        widest, size = points[place], float(apart[place, row])
-        if size > POLICY.loops.opened * problem.residual_scales(widest)[row]:
+        place = int(np.argmax(residuals[:, row]))
+        worst, size = points[place], float(residuals[place, row])
+        if size > POLICY.loops.opened * problem.residual_scales(worst)[row]:
             loop = flat.loops.closures[k].loop
-            wide[loop] = max(wide.get(loop, (0.0, 0.0)), (size, widest.time))
+            drifts[loop] = max(drifts.get(loop, (0.0, 0.0)), (size, worst.time))
     return [
         f"the loop that {flat.loops.cuts[loop].a} and {flat.loops.cuts[loop].b} close ({flat.loops.cuts[loop].where}) is open by "
-        f"{size:.2g} m or rad at t = {time:.4g} s: a constraint that followed from the others at the start does not follow "
-        "from them there, and was not kept. Start from another position."
-        for loop, (size, time) in wide.items()
+        f"{size:.2g} m or rad at t = {time:.4g} s: a constraint that was redundant at the start is independent there, and "
+        "is not satisfied. Start from another position."
+        for loop, (size, time) in drifts.items()
     ]

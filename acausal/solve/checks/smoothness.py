@@ -1,7 +1,7 @@
-"""Whether laws that are declared smooth are: the step from case to case at the instants at which a run switches them.
+"""Smoothness of laws declared `smooth=True`: no jump between cases where a run switches them.
 
-Both cases are evaluated on both sides of a switch. Where they do not meet, the place is examined more closely, on the cubic
-between two outputs, until the law has one value on both sides or hardly any time is left between them.
+Both cases are evaluated on both sides of a switch. If they differ, the interval is refined, on the cubic between two outputs,
+until the law has the same value on both sides or the interval is very short.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.flatten.discontinuities import Promise
 from acausal.policy import POLICY
-from acausal.solve.checks.validity import Watch, watch
+from acausal.solve.checks.validity import Statements, compiled_statements
 from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.looks import spread
@@ -28,7 +28,7 @@ PROMISES = POLICY.promises
 
 @dataclass(frozen=True)
 class _Point:
-    """Values at a time: excess, step and law."""
+    """Values at a time: indicator, difference of the cases, and law."""
 
     time: float
     excess: float
@@ -36,12 +36,12 @@ class _Point:
     value: np.ndarray
 
 
-class _Look:
-    """Values of the promises of a model along a run."""
+class _Samples:
+    """Values of the laws declared smooth along a run."""
 
     def __init__(self, integrator: Integrator, outputs: Evaluator) -> None:
         compiled = integrator.compiled
-        self.seen = _known(compiled)
+        self.statements = _known(compiled)
         self.integrator, self.outputs = integrator, outputs
 
     def rows(self, places: np.ndarray) -> np.ndarray:
@@ -54,12 +54,12 @@ class _Look:
 
     def _values(self, rows: Rows) -> np.ndarray:
         solver = self.outputs.solver
-        return solver.problem.each(self.seen.function, solver(rows, self.seen.wanted)[0])
+        return solver.problem.each(self.statements.function, solver(rows, self.statements.wanted)[0])
 
 
 @once
-def _known(compiled: CompiledModel) -> Watch:
-    """Promises of what the equations hold; a derivative that no equation has cannot be evaluated."""
+def _known(compiled: CompiledModel) -> Statements:
+    """Declared laws that can be evaluated: those without derivatives that occur in no equation."""
     r = compiled.reduced
     promises = r.flat.discontinuities.promises
     entries = [stacked([promise.excess, promise.step, promise.value]) for promise in promises]
@@ -71,11 +71,11 @@ def _known(compiled: CompiledModel) -> Watch:
     found = [
         (promise, scalars(entry)) for promise, entry, u in zip(promises, entries, unknown, strict=True) if not any(u)
     ]
-    return watch(compiled, [promise for promise, _ in found], [e for _, some in found for e in some])
+    return compiled_statements(compiled, [promise for promise, _ in found], [e for _, some in found for e in some])
 
 
-def broken_promises(integrator: Integrator, outputs: Evaluator) -> list[str]:
-    """Report which laws jumped in a run although they are declared smooth.
+def smoothness_warnings(integrator: Integrator, outputs: Evaluator) -> list[str]:
+    """Return warnings on laws that jump in a run although they are declared smooth.
 
     Parameters
     ----------
@@ -86,80 +86,82 @@ def broken_promises(integrator: Integrator, outputs: Evaluator) -> list[str]:
     """
     if not integrator.compiled.reduced.flat.discontinuities.promises or len(outputs.rows) < 2:
         return []
-    look = _Look(integrator, outputs)
-    rows = spread(len(outputs.rows), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
-    values, first, found = look.rows(rows), 0, dict[str, str]()
-    for promise in look.seen.stated:
+    samples = _Samples(integrator, outputs)
+    rows = spread(len(outputs.rows), POLICY.validity.dear if samples.statements.wanted else POLICY.validity.rows)
+    values, first, found = samples.rows(rows), 0, dict[str, str]()
+    for promise in samples.statements.stated:
         n = promise.step.numel()
         columns = slice(first, first := first + 1 + 2 * n)
-        text = _broken(look, rows, values[:, columns], columns, promise)
+        text = _jump_text(samples, rows, values[:, columns], columns, promise)
         if text:
             found.setdefault(str(promise.origin), text)
     return list(found.values())
 
 
-def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, promise: Promise) -> str:
-    """Say that a law jumps, "" if it does not."""
+def _jump_text(samples: _Samples, rows: np.ndarray, values: np.ndarray, columns: slice, promise: Promise) -> str:
+    """Return the warning that a law jumps, "" if it does not."""
     size = _largest(values[:, 1 + promise.step.numel() :])
     side = promise.holds(values[:, 0])
-    closer = 0
+    examined = 0
     for k in np.flatnonzero(side[1:] != side[:-1]):
         low, high = int(rows[k]), int(rows[k + 1])
         while high - low > 1:
             middle = (low + high) // 2
-            differs = promise.holds(look.rows(np.array([middle]))[0, columns][0]) != side[k]
+            differs = promise.holds(samples.rows(np.array([middle]))[0, columns][0]) != side[k]
             low, high = (low, middle) if differs else (middle, high)
-        if closer == PROMISES.switches:
+        if examined == PROMISES.switches:
             break
         ends = (
-            values[k : k + 2] if high - low == rows[k + 1] - rows[k] else look.rows(np.array([low, high]))[:, columns]
+            values[k : k + 2]
+            if high - low == rows[k + 1] - rows[k]
+            else samples.rows(np.array([low, high]))[:, columns]
         )
-        time, jump, looked = _at_switch(look, low, ends, columns, promise, PROMISES.step * size)
-        closer += looked
+        time, jump, refined = _at_switch(samples, low, ends, columns, promise, PROMISES.step * size)
+        examined += refined
         if jump > PROMISES.step * size:
             return (
-                f"{promise.origin}: `smooth=True` promises a law without a jump, but near t = {time:.4g} s it jumps by "
-                f"{jump:.4g}; the integration did not stop there, and its error is unknown. Leave `smooth=True` out, or "
-                "let the cases of piecewise meet where they switch."
+                f"{promise.origin}: the law is declared `smooth=True`, but near t = {time:.4g} s it jumps by {jump:.4g}; "
+                "the integrator did not restart there, and its error is unknown. Leave `smooth=True` out, or make the cases "
+                "of piecewise equal where they switch."
             )
     return ""
 
 
 def _at_switch(
-    look: _Look, row: int, ends: np.ndarray, columns: slice, promise: Promise, allowed: float
+    samples: _Samples, row: int, ends: np.ndarray, columns: slice, promise: Promise, allowed: float
 ) -> tuple[float, float, bool]:
-    """Time of a switch between an output point and the next, the jump there, and whether it had to be examined more closely.
+    """Return the time of a switch between two outputs, the jump there, and whether the interval was refined.
 
-    `ends` are the values at both, `columns` those of the promise among all.
+    `ends` are the values at both outputs, `columns` those of the law among all.
     """
     n, holds = promise.step.numel(), promise.holds
 
     def points(times: np.ndarray, values: np.ndarray) -> list[_Point]:
         return [_Point(t, v[0], v[1 : 1 + n], v[1 + n :]) for t, v in zip(times.tolist(), values, strict=True)]
 
-    a, b = points(look.outputs.rows.times[row : row + 2], ends)
+    a, b = points(samples.outputs.rows.times[row : row + 2], ends)
     for k in range(PROMISES.closer):
         if min(_step(a, b), _jump(a, b)) <= allowed:
             return b.time, 0.0, k > 0
         times = np.linspace(a.time, b.time, PROMISES.parts + 1)[1:-1]
-        parts = [a, *points(times, look.inside(row, times)[:, columns]), b]
+        parts = [a, *points(times, samples.inside(row, times)[:, columns]), b]
         place = next((i for i in range(PROMISES.parts) if holds(parts[i].excess) != holds(parts[i + 1].excess)), 0)
         a, b = parts[place], parts[place + 1]
     return b.time, _jump(a, b), True
 
 
 def _step(a: _Point, b: _Point) -> float:
-    """The step where the excess is 0, on the line through both sides; what has no value on one side counts as on the other."""
+    """Difference of the cases where the indicator is 0, by linear interpolation; a value that is not finite equals the other."""
     one, two = (np.where(np.isfinite(p.step), p.step, q.step) for p, q in ((a, b), (b, a)))
     part = a.excess / (a.excess - b.excess) if a.excess != b.excess else 0.5
     return _largest(one + part * (two - one))
 
 
 def _largest(values: np.ndarray) -> float:
-    """Size of the largest of some values; what has none counts as 0."""
+    """Largest magnitude of some values; NaN counts as 0."""
     return float(np.fmax.reduce(np.abs(values), axis=None, initial=0.0))
 
 
 def _jump(a: _Point, b: _Point) -> float:
-    """How much the law itself differs on both sides, whatever cases it takes there."""
+    """Difference of the law between both sides."""
     return float(np.max(np.abs(b.value - a.value), initial=0.0))

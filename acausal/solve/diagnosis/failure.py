@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
-from acausal.solve.checks.separation import meeting_ahead
+from acausal.solve.checks.separation import coincidence_ahead
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope, undefined_equations
 from acausal.solve.initialization.newton import NoConvergence, algebraic
 from acausal.solve.initialization.redundancy import Redundancy, is_singular
@@ -61,7 +61,7 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
     if long := _too_long(problem, begun, integrator.span[1]):
         return f"{head} {failure.reason}.\n{long}"
     near = approached(integrator, at, failure.time)
-    if met := meeting_ahead(problem, near, failure.time):
+    if met := coincidence_ahead(problem, near, failure.time):
         return met
     lines = [f"{head} {failure.reason}."]
     if is_singular(problem, at) or (left.singular and not reached):
