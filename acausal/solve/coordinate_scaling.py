@@ -1,4 +1,4 @@
-"""Sizes of coordinates in closed loops, in any unit of length: in millimetres a slide of 1 is nothing beside a turn of 1 rad."""
+"""Scales of coordinates in closed loops, independent of the unit of length: 1 mm of sliding is small beside 1 rad."""
 
 from __future__ import annotations
 
@@ -17,17 +17,18 @@ LOOPS, RANKS = POLICY.loops, POLICY.ranks
 
 @once
 def constraint_blocks(compiled: CompiledModel) -> list[Block]:
-    """Constraints of one level that share coordinates, with the entries of D."""
+    """Blocks of constraints of one level that share coordinates, with the entries of D."""
     c = compiled.constraints
     return connected_blocks(c.entries[0], c.entries[1], (c.size, compiled.nx))
 
 
 def loop_scales(compiled: CompiledModel, p: np.ndarray) -> np.ndarray:
-    """Return the sizes of the states where they close loops, shape (nx,): nominal values, or others.
+    """Return the scales of the states in closed loops, shape (nx,): nominal values, or other ones.
 
-    Coordinates of one unit without a declared nominal value that share constraints have one size, with which they change
-    these as much as those with declared ones do, else as much as angles, whose size no unit of length changes, else as much as
-    those that change them most; what each does around the guesses counts, as a crank does nothing at its dead centre.
+    Coordinates of one unit without a declared nominal value that share constraints have a common scale: with it they change
+    the constraints as much as those with declared values do; if there are none, as much as angles, which do not depend on
+    the unit of length; else as much as the coordinates that change them most. The changes are typical ones around the
+    guesses, because a crank at its dead centre, for example, changes nothing.
 
     Parameters
     ----------
@@ -44,23 +45,23 @@ def loop_scales(compiled: CompiledModel, p: np.ndarray) -> np.ndarray:
 def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
     """Factors of the nominal values.
 
-    What is not of the first group stays at its guess at first: without a guess its nominal value may lie far outside the
-    machine. A slide across a rod changes its length in proportion to its own distance from the middle, so that the second
-    round finds a factor inversely as the first one: of both their geometric mean counts, whatever the guess.
+    In the first round only coordinates of the first group vary, because the nominal value of the others may exceed the size
+    of the machine. A slide across a rod changes its length in proportion to its distance from the middle, so that the second
+    round yields the inverse tendency: the geometric mean of both rounds does not depend on the guess.
     """
     found, rounds = np.ones(compiled.nx), []
     for others in (0.0, 1.0):
         spread = others * found
         for _, groups in _groups(compiled):
             spread[groups[0][0]] = 1.0
-        found = _once(compiled, np.frombuffer(p), spread)
+        found = _round(compiled, np.frombuffer(p), spread)
         rounds.append(found)
     return np.sqrt(rounds[0] * rounds[1])
 
 
 @np.errstate(all="ignore")
-def _once(compiled: CompiledModel, p: np.ndarray, spread: np.ndarray) -> np.ndarray:
-    """Factors from what states do around the guesses, within a spread over their nominal values."""
+def _round(compiled: CompiledModel, p: np.ndarray, spread: np.ndarray) -> np.ndarray:
+    """Factors from the constraint Jacobian around the guesses, within a spread relative to nominal values."""
     c, nx = compiled.constraints, compiled.nx
     nominal = compiled.nominal[:nx]
     around = LOOPS.around * np.random.default_rng(0).standard_normal((LOOPS.looks, nx))
@@ -71,7 +72,7 @@ def _once(compiled: CompiledModel, p: np.ndarray, spread: np.ndarray) -> np.ndar
     for first, groups in _groups(compiled):
         most = _most(c, J, groups)
         if np.any(most[_most(c, np.ones(len(J)), groups) > 0] <= RANKS.faint * np.max(most)):
-            # Rounding, or a small machine: what moves a loop as a whole cancels, and counts as it does in each of its halves.
+            # Round-off or a small machine: motions of the whole loop cancel; the size of their terms counts instead.
             terms = _terms(compiled, x, p, constants) * nominal[c.entries[1]] if terms is None else terms
             adds_up = _most(c, terms, groups)
             most = np.where(most > RANKS.rank * adds_up, most, adds_up)
@@ -92,12 +93,12 @@ def _most(c: Constraints, J: np.ndarray, groups: list[tuple[np.ndarray, np.ndarr
 
 
 def _typical(J: np.ndarray) -> np.ndarray:
-    """Typical size of each entry at n points; where it has no value it is 0."""
+    """Median magnitude of each entry at n points, with 0 for entries that are not finite."""
     return np.median(np.abs(np.where(np.isfinite(J), J, 0.0)), axis=0)
 
 
 def _terms(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, constants: Constants) -> np.ndarray:
-    """Typical size of what adds up in each entry of the constraints' Jacobian at n points, as `Constraints.entries` has them."""
+    """Typical size of the terms of each entry of the constraint Jacobian at n points, in the order of `Constraints.entries`."""
     c = compiled.constraints
     found = _typical(np.array([c.terms(row, p, 0.0, constants.vector)[1] for row in x]))
     columns = np.repeat(np.arange(compiled.nx), np.diff(c.pattern.indptr))
@@ -107,9 +108,10 @@ def _terms(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, constants: Con
 
 @once
 def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, np.ndarray]]]]:
-    """States of each block by their units, with their entries in equations that several units share.
+    """States of each block by unit, with their entries in equations that several units share.
 
-    First, and told, those whose size is known, if any are, else those whose unit holds no length or mass, as angles.
+    First those with a known scale, if any, else those without length and mass in their unit, such as angles; the flag tells
+    whether there are any.
     """
     c, unknown, found = compiled.constraints, set(compiled.reduced.flat.unknowns.names), []
     known = [declared or unit in unknown for unit, declared in compiled.sizes]
@@ -128,5 +130,5 @@ def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, 
 
 
 def _is_plain(unit: Dimension) -> bool:
-    """True if a unit is a power of time: no other unit of length or mass changes its values."""
+    """True if a unit is a power of time: independent of units of length and mass."""
     return all(not exponent for base, exponent in zip(BASES, unit.exponents, strict=True) if base != "s")

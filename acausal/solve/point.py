@@ -1,4 +1,4 @@
-"""Where a run is: at one time, and at many, as the functions of a model take them."""
+"""State of a run at one time, and at many times, as arguments of the functions of a model."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from acausal.compiler.constants import Constants
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """Where a run is: time in s, states, algebraic unknowns, constants, and which watched conditions hold."""
+    """State of a run: time in s, states, algebraic unknowns, constants, and mode: which conditions hold."""
 
     time: float
     x: np.ndarray
@@ -26,7 +26,7 @@ class Point:
         return np.concatenate([self.x, self.z])
 
     def differs(self, other: Point) -> bool:
-        """Whether states, constants or what holds differ."""
+        """Return whether states, constants or modes differ."""
         mine, others = ((at.x, at.constants.vector, at.mode) for at in (self, other))
         return any((one != another).any() for one, another in zip(mine, others, strict=True))
 
@@ -81,7 +81,7 @@ class Rows:
             and len(some) == len(self)
             and np.all(np.diff(some) == 1)
         ):
-            return self  # all of them: a copy of a long run takes as long as evaluating it
+            return self  # all rows: copying a long run takes as long as evaluating it
         return Rows(self.times[some], self.x[some], self.z[some], self.constants[some])
 
     def with_z(self, z: np.ndarray) -> Rows:

@@ -1,4 +1,4 @@
-"""Parts of a sparse matrix: some rows and columns, or those that share none with others, so that each is dealt with alone."""
+"""Blocks of sparse matrices: submatrices, and the connected blocks into which a pattern decouples."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ Places = np.ndarray | list[int]
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """Rows and columns of a matrix, and which of its entries are in them: the same for all matrices of one sparsity.
+    """Submatrix of all matrices of one pattern.
 
     Attributes
     ----------
     rows, columns : arrays of int
-        Where they are in the whole.
+        Rows and columns of the whole matrix.
     entries : array of int
-        Which entries of the whole are in the block, column by column.
+        Entries of the whole matrix that are in the block, column by column.
     places : array of int, shape (2, n)
-        Row and column of each of them, in the block.
+        Row and column of each entry, in the block.
     """
 
     rows: np.ndarray
@@ -56,7 +56,7 @@ class Block:
 
 
 def block_of(J: scipy.sparse.csc_matrix, rows: Places, columns: Places) -> Block:
-    """Return the block in some rows and columns of a matrix, in the order in which they are given."""
+    """Return the block of some rows and columns of a matrix, in this order."""
     row, column = (np.full(n, -1, dtype=np.int32) for n in J.shape)
     row[rows], column[columns] = np.arange(len(rows)), np.arange(len(columns))
     places = np.array([row[J.indices], np.repeat(column, np.diff(J.indptr))])
@@ -65,7 +65,7 @@ def block_of(J: scipy.sparse.csc_matrix, rows: Places, columns: Places) -> Block
 
 
 def connected_blocks(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> list[Block]:
-    """Return the connected parts of a matrix, from the places of its entries; a row without any is a block of its own."""
+    """Return the connected blocks of a matrix, from the places of its entries; an empty row is a block of its own."""
     m, n = shape
     graph = scipy.sparse.coo_matrix((np.ones(len(rows)), (rows, m + columns)), shape=(m + n, m + n))
     count, label = scipy.sparse.csgraph.connected_components(graph, directed=False)
@@ -81,7 +81,7 @@ def connected_blocks(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, in
 
 
 def connected_blocks_of(J: scipy.sparse.csc_matrix) -> list[Block]:
-    """Return the parts of a matrix; its entries are their values in its own order."""
+    """Return the connected blocks of a matrix, to be evaluated with the entries in its order."""
     return connected_blocks(J.indices, np.repeat(np.arange(J.shape[1]), np.diff(J.indptr)), J.shape)
 
 

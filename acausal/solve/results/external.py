@@ -1,4 +1,4 @@
-"""A run that somebody else made: states of a compiled model at many times, and other values that stay as they are given."""
+"""Results computed by other means: states of a compiled model at many times, and other values that are not recomputed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.results.evaluator import Evaluator
-from acausal.solve.results.prescribed import Known
+from acausal.solve.results.prescribed import Prescribed
 from acausal.symbols import scalars
 
 # Names in a message.
@@ -25,9 +25,9 @@ LISTED = 5
 
 
 def evaluator_of(
-    compiled: CompiledModel, p: np.ndarray, times: np.ndarray, given: Mapping[str, tuple[Quantity, np.ndarray]]
+    compiled: CompiledModel, p: np.ndarray, times: np.ndarray, specified: Mapping[str, tuple[Quantity, np.ndarray]]
 ) -> Evaluator:
-    """Return what evaluates expressions of a model at given states.
+    """Return the evaluator of a model at specified states.
 
     Parameters
     ----------
@@ -37,17 +37,17 @@ def evaluator_of(
         Values of its free parameters.
     times : array, shape (n,)
         In s.
-    given : mapping of str to (Quantity, array)
+    specified : mapping of str to (Quantity, array)
         Variables of the model, with values of shape (n, entries) in column-major order; every state is among them.
 
     Raises
     ------
     DeclarationError
-        If states are missing, or the model has more to remember than states.
+        If states are missing, or the model has closed loops or discrete variables.
     """
     _check(compiled)
-    known = Known(compiled, _entries(compiled, given))
-    states = known.of_states() if known.entries else {}
+    prescribed = Prescribed(compiled, _entries(compiled, specified))
+    states = prescribed.of_states() if prescribed.entries else {}
     missing = [name for k, name in enumerate(compiled.states) if k not in states]
     if missing:
         shown = ", ".join(f"`{name}`" for name in missing[:LISTED]) + (", ..." if len(missing) > LISTED else "")
@@ -62,40 +62,40 @@ def evaluator_of(
         )
     problem = Problem(compiled, p)
     solver = Consistent(problem)
-    return Evaluator(_rows(problem, solver, times, x), solver, known if known.entries else None)
+    return Evaluator(_rows(problem, solver, times, x), solver, prescribed if prescribed.entries else None)
 
 
 def _check(compiled: CompiledModel) -> None:
     if compiled.constraints.size:
         raise DeclarationError(
-            "the model has closed loops, of which a run chooses the states at its start and on its way: a result cannot be made "
-            "from states. Simulate it, or make one of arrays alone, without model="
+            "the model has closed loops, whose states a run selects at the start and on its way: no result can be made from "
+            "states. Simulate it, or make a result of arrays alone, without model="
         )
     if compiled.guards.n_discretes:
         raise DeclarationError(
-            "the model has discrete variables, which remember what states do not tell: a result cannot be made from "
-            "states. Simulate it, or make one of arrays alone, without model="
+            "the model has discrete variables, which states do not determine: no result can be made from states. Simulate it, "
+            "or make a result of arrays alone, without model="
         )
 
 
 def _entries(
-    compiled: CompiledModel, given: Mapping[str, tuple[Quantity, np.ndarray]]
+    compiled: CompiledModel, specified: Mapping[str, tuple[Quantity, np.ndarray]]
 ) -> list[tuple[str, Any, np.ndarray]]:
-    """Scalars of the model that have values, but for those that its declaration fixes to expressions."""
+    """Name, symbol and values of each specified scalar of the model."""
     parameters = {s.element_hash() for s in scalars(compiled.reduced.p)}
     found = []
-    for path, (quantity, values) in given.items():
+    for path, (quantity, values) in specified.items():
         column = scalars(quantity.column)
         if any(s.is_constant() or s.element_hash() in parameters for s in column):
-            raise DeclarationError(f"`{path}` is a parameter of the model: give it by parameters=, or in the model")
+            raise DeclarationError(f"`{path}` is a parameter of the model: set it by parameters=, or in the model")
         if not all(s.is_symbolic() for s in column):
-            raise DeclarationError(f"`{path}` is an expression of other variables: give these")
+            raise DeclarationError(f"`{path}` is an expression of other variables: specify these")
         found += [(path, s, values[:, k]) for k, s in enumerate(column)]
     return found
 
 
 def _rows(problem: Problem, solver: Consistent, times: np.ndarray, x: np.ndarray) -> Rows:
-    """Rows of the states, with switches that fit them, and algebraic unknowns to begin with."""
+    """Rows of the states, with consistent switches and guesses of the algebraic unknowns."""
     compiled, p = problem.compiled, problem.p
     n, guards = compiled.guards.n_switches, compiled.guards
     if not len(times):
@@ -109,7 +109,7 @@ def _rows(problem: Problem, solver: Consistent, times: np.ndarray, x: np.ndarray
     for _ in range(POLICY.switches.rounds):
         constants = np.array([layout.begin(head, problem.feedback).vector for head in heads])
         first = Point(float(times[0]), x[0], guess, layout.constants(constants[0]))
-        with suppress(InitializationError):  # each row is tried by itself when it is read
+        with suppress(InitializationError):  # each row is solved by itself when read
             guess = algebraic(problem, first).z
         rows = Rows(times, x, np.tile(guess, (len(times), 1)), constants)
         if not open_.size:
@@ -121,7 +121,7 @@ def _rows(problem: Problem, solver: Consistent, times: np.ndarray, x: np.ndarray
         if np.array_equal(fitting[:, open_], heads[:, open_]):
             return rows
         heads[:, open_] = fitting[:, open_]
-    raise DeclarationError("no switches of the model fit the states that are given at every time")
+    raise DeclarationError("no positions of the switches are consistent with the states at every time")
 
 
 def _points(problem: Problem, rows: Rows) -> list[Point]:

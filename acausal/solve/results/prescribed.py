@@ -1,4 +1,4 @@
-"""Values of variables that the equations of a model do not compute, as another method than the engine's has found them."""
+"""Prescribed variables: values that another solver computed, substituted in the expressions of a model."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from acausal.symbols import scalars, stacked
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
-    """Values of quantities of a model that its equations do not compute: what follows from them, does so.
+class Prescribed:
+    """Values of variables of a model that replace their equations.
 
     Parameters
     ----------
     compiled : CompiledModel
         The model.
     entries : list of (str, casadi.SX, array)
-        Of each scalar its name, its symbol in the model, and its values at all times.
+        Name, symbol in the model, and values at all times, of each scalar.
     """
 
     compiled: CompiledModel
@@ -32,17 +32,17 @@ class Known:
 
     @cached_property
     def symbols(self) -> ca.SX:
-        """A symbol for each of them."""
-        return ca.SX.sym("known", len(self.entries))
+        """A symbol for each scalar."""
+        return ca.SX.sym("prescribed", len(self.entries))
 
     @cached_property
     def values(self) -> np.ndarray:
-        """Their values, shape (times, n)."""
+        """Values, shape (times, n)."""
         return np.column_stack([values for *_, values in self.entries])
 
     @cached_property
     def unknowns(self) -> list[tuple[int, Any, float]]:
-        """Place of each that is an unknown of the flat model, or its opposite; the symbol of that; and 1 or -1."""
+        """Place, symbol and sign, 1 or -1, of each scalar that is an unknown of the flat model or its negative."""
         was, becomes = self.compiled.reduced.flat.unknowns.eliminated
         own, found = stacked([symbol for _, symbol, _ in self.entries]), []
         for k, entry in enumerate(scalars(ca.substitute([own], [was], [becomes])[0])):
@@ -53,7 +53,7 @@ class Known:
         return found
 
     def of_states(self) -> dict[int, tuple[str, np.ndarray]]:
-        """Values of each state that is among them, by its place; and by which name.
+        """Prescribed states: place -> name and values.
 
         Raises
         ------
@@ -76,7 +76,7 @@ class Known:
         return states
 
     def resolve(self, expression: ca.SX) -> ca.SX:
-        """Express anything of the model in states, algebraic unknowns, parameters, time and what is known."""
+        """Return an expression of the model in states, algebraic unknowns, parameters, time and prescribed variables."""
         reduced = self.compiled.reduced
         named = stacked([s for _, s, _ in self.entries]), self.symbols
         for was, becomes in (named, reduced.flat.unknowns.eliminated, self._replaced, self._definitions):
@@ -85,7 +85,7 @@ class Known:
 
     @cached_property
     def _replaced(self) -> tuple[ca.SX, ca.SX]:
-        """Unknowns of the flat model but for the states, and what is known of them."""
+        """Prescribed unknowns of the flat model other than states, and their values."""
         own = {s.element_hash() for s in scalars(self.compiled.reduced.x)}
         found = {s.element_hash(): (s, sign * self.symbols[k]) for k, s, sign in self.unknowns}
         pairs = [pair for key, pair in found.items() if key not in own]
@@ -93,7 +93,7 @@ class Known:
 
     @cached_property
     def _definitions(self) -> tuple[ca.SX, ca.SX]:
-        """Definitions of the others, in states, algebraic unknowns and what is known."""
+        """Definitions of the other unknowns, in states, algebraic unknowns and prescribed variables."""
         known = {s.element_hash() for s in scalars(self._replaced[0])}
         symbols, expressions = (scalars(column) for column in self.compiled.reduced.definitions)
         pairs = [(s, e) for s, e in zip(symbols, expressions, strict=True) if s.element_hash() not in known]
