@@ -64,7 +64,7 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
     J, sizes = _jacobians(problem, Rows.of(at), at.constants)
     J = J[0] * on[rows]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
-    weights = _stiffness_weights(constraint_blocks(problem.compiled), J, stiffness[columns], problem.feedback)
+    weights = _weights(constraint_blocks(problem.compiled), J, stiffness[columns], problem.feedback)
     length = np.sqrt(np.bincount(rows, (J * weights) ** 2, minlength=c.size))
     length = np.where(length > 0, length, 1.0)[rows]
     return replace(at.constants, moves=True, D=on[rows] * weights * sizes**2 / length)
@@ -168,7 +168,7 @@ def _candidates(block: Block, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray
     return block.rows[active[row]], block.columns[order[column]], sizes
 
 
-def _stiffness_weights(levels: list[Block], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
+def _weights(levels: list[Block], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
     """Weights of the coordinates: stiff ones, whose motion costs energy, move as little as transversality allows.
 
     Weights fall with the stiffness above a threshold, the lowest for which the projection is transversal enough.

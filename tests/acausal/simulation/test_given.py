@@ -166,7 +166,7 @@ GOOD = {"x": ([0.0, 1.0], "m"), "v": ([0.0, 1.0], "m/s")}
             "`a` and `opposite` are one variable",
         ),
         (FourBar(), {}, "closed loops"),
-        (Counts(), {"h": ([1.0, 1.0], "m"), "v": ([0.0, 0.0], "m/s")}, "discrete variables, which states do not determine"),
+        (Counts(), {"h": ([1.0, 1.0], "m"), "v": ([0.0, 0.0], "m/s")}, "discrete variables, which"),
         (Cart(), GOOD | {"x": [0.0, np.nan]}, "`x` is not finite at t = 1 s"),
         (Cart, GOOD, "give an instance"),
         ("cart", GOOD, "is a text"),

@@ -7,7 +7,7 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, chain, fixed, guess, parameter
-from acausal.solve.coordinate_scaling import loop_scales
+from acausal.solve.coordinate_scaling import loop_scales as scales
 from acausal.solve.problem import Problem
 from components import BodyBox, Fixed, FixedTranslation, PointMass, Prismatic, Revolute, SphericalSpherical, World
 from models import FourBar, SimplePendulum, Squeezer
@@ -17,7 +17,7 @@ from tests.hard.test_units_of_length import LENGTHS, SliderCrank, Yoke
 def sizes(model: ac.Component) -> dict[str, float]:
     compiled = ac.compile(model)
     problem = Problem(compiled, compiled.parameter_values(None))
-    return dict(zip(compiled.states, loop_scales(compiled, problem.p).tolist(), strict=True))
+    return dict(zip(compiled.states, scales(compiled, problem.p).tolist(), strict=True))
 
 
 @pytest.mark.parametrize(("scene", "slide"), [(SliderCrank, "slide.s"), (Yoke, "way.s")])
@@ -34,7 +34,7 @@ def test_a_slide_counts_in_lengths_of_the_machine(scene, slide):
 @pytest.mark.parametrize("scene", [FourBar, Squeezer, SimplePendulum])
 def test_coordinates_of_one_unit_count_in_nominal_values(scene):
     compiled = ac.compile(scene())
-    np.testing.assert_array_equal(loop_scales(compiled, compiled.parameter_values(None)), compiled.nominal[: compiled.nx])
+    np.testing.assert_array_equal(scales(compiled, compiled.parameter_values(None)), compiled.nominal[: compiled.nx])
 
 
 def test_declared_nominal_values_stay():

@@ -30,11 +30,8 @@ class Motion:
 
     def __init__(self, *functions, span=10.0) -> None:
         self.functions, self.span, self.trials, self.looks = functions, span, 0, 0
-        self.problem, self.compiled, self.tolerance = (
-            SimpleNamespace(indicators=self.indicators),
-            SimpleNamespace(nx=1),
-            1e-8,
-        )
+        self.problem, self.compiled = SimpleNamespace(indicators=self.indicators), SimpleNamespace(nx=1)
+        self.tolerance = 1e-8
         self.settings = SimpleNamespace(nominal=np.ones(1))
         self.consistent = self
 

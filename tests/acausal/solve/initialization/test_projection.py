@@ -8,15 +8,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.solve.initialization import coordinate_partitioning as cp
 from acausal.solve.initialization.assembly import close, levels, tighten
-from acausal.solve.initialization.coordinate_partitioning import (
-    _select,
-    _stiffness_weights,
-    _transversality,
-    choose_projection,
-    independent_states,
-    projection_cosine,
-)
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.initialization.tangent_space import tangent
 from acausal.solve.integrate.order import eigenvalues_of
@@ -81,17 +74,17 @@ def test_tightening_closes_what_is_nearly_closed(off):
 @pytest.mark.parametrize(("angle", "follows"), [(0.1, "x"), (0.7, "x"), (0.9, "y"), (1.5, "y"), (3.0, "x")])
 def test_the_coordinate_that_the_constraint_holds_best_follows(angle, follows):
     at = point(np.cos(angle), np.sin(angle))
-    constants = choose_projection(problem(), at, spare=False)
+    constants = cp.choose_projection(problem(), at, spare=False)
     rate = {"x": "u", "y": "v"}[follows]
     assert directions(constants) == {name: float(name in (follows, rate)) for name in "xyuv"}
-    moving = choose_projection(problem(), at, spare=False, moves=True)
-    assert set(independent_states(problem(), replace(at, constants=moving))) == set("xyuv") - {follows, rate}
+    moving = cp.choose_projection(problem(), at, spare=False, moves=True)
+    assert set(cp.independent_states(problem(), replace(at, constants=moving))) == set("xyuv") - {follows, rate}
     assert constants.moves is False
 
 
 def test_moving_projections_go_along_the_jacobian():
     """Factors of its entries (2 x, 2 y), so that the direction is a unit vector."""
-    constants = choose_projection(problem(), point(0.6, 0.8), spare=False, moves=True)
+    constants = cp.choose_projection(problem(), point(0.6, 0.8), spare=False, moves=True)
     assert constants.moves
     assert directions(constants) == pytest.approx(dict.fromkeys("xyuv", 0.5))
 
@@ -102,38 +95,34 @@ def test_transversality_is_the_cosine_of_the_largest_angle(angle):
     J = np.array([[5.0, 0, 0], [0, 1e-3, 0]])
     D = np.array([[1.0, 0, 0], [0, np.cos(angle), np.sin(angle)]])
     J, D = J.ravel(), D.ravel()
-    assert _transversality(whole(2, 3), J[None], D) == pytest.approx(np.cos(angle), abs=1e-15)
-    assert _transversality(whole(2, 3), np.array([J, J]), D).shape == (2,)
-    assert _transversality(whole(2, 3), J[None], np.zeros(6)) == 1
+    assert cp._transversality(whole(2, 3), J[None], D) == pytest.approx(np.cos(angle), abs=1e-15)
+    assert cp._transversality(whole(2, 3), np.array([J, J]), D).shape == (2,)
+    assert cp._transversality(whole(2, 3), J[None], np.zeros(6)) == 1
 
 
 def test_stiff_coordinates_are_spared_by_the_lowest_threshold_that_serves():
     J, stiffness = np.array([1.0, 1.0]), np.array([1e8, 0.0])
-    np.testing.assert_allclose(_stiffness_weights(whole(1, 2), J, stiffness, 1.0), [1 / (1 + 1e7), 1])
-    np.testing.assert_allclose(
-        _stiffness_weights(whole(1, 2), np.array([1.0, 1e-3]), stiffness, 1.0), [1 / (1 + 1e3), 1]
-    )
-    np.testing.assert_allclose(
-        _stiffness_weights(whole(1, 2), np.array([1.0, 0.0]), stiffness, 1.0), [1 / (1 + 1e7), 1]
-    )
+    np.testing.assert_allclose(cp._weights(whole(1, 2), J, stiffness, 1.0), [1 / (1 + 1e7), 1])
+    np.testing.assert_allclose(cp._weights(whole(1, 2), np.array([1.0, 1e-3]), stiffness, 1.0), [1 / (1 + 1e3), 1])
+    np.testing.assert_allclose(cp._weights(whole(1, 2), np.array([1.0, 0.0]), stiffness, 1.0), [1 / (1 + 1e7), 1])
     # In a run of 1e200 s: the square of the feedback is too small a number.
     with np.errstate(over="ignore"):  # as in a run
-        np.testing.assert_array_equal(_stiffness_weights(whole(1, 2), J, stiffness, 1e-199), [0, 1])
+        np.testing.assert_array_equal(cp._weights(whole(1, 2), J, stiffness, 1e-199), [0, 1])
 
 
 def test_two_constraints_take_a_coordinate_each_that_they_hold_well():
     D = np.array([0.1, 0.9, 0.2, 0.9, 0.1, 0.2])
-    np.testing.assert_array_equal(_select(whole(2, 3), D, np.array([True, True])), [0, 1, 0, 1, 0, 0])
-    np.testing.assert_array_equal(_select(whole(2, 3), D, np.array([False, True])), [0, 0, 0, 1, 0, 0])
+    np.testing.assert_array_equal(cp._select(whole(2, 3), D, np.array([True, True])), [0, 1, 0, 1, 0, 0])
+    np.testing.assert_array_equal(cp._select(whole(2, 3), D, np.array([False, True])), [0, 0, 0, 1, 0, 0])
 
 
 def test_a_choice_wears_out_as_its_coordinate_loses_its_hold():
     """Where y follows from x, the cosine is |y|."""
-    constants = choose_projection(problem(), point(0.0, 1.0), spare=False)
+    constants = cp.choose_projection(problem(), point(0.0, 1.0), spare=False)
     angle = np.array([np.pi / 2, 1.0, 0.3, 0.05, 0.0, -0.4])
     x = np.array([point(np.cos(a), np.sin(a)).x for a in angle])
     np.testing.assert_allclose(
-        projection_cosine(problem(), Rows.within(np.zeros(6), x, np.zeros((6, 0)), constants.vector), constants),
+        cp.projection_cosine(problem(), Rows.within(np.zeros(6), x, np.zeros((6, 0)), constants.vector), constants),
         np.abs(np.sin(angle)),
         atol=1e-15,
     )
@@ -153,7 +142,7 @@ def test_the_tangent_is_what_the_constraints_leave_free(angle):
 def test_eigenvalues_are_those_on_the_circle():
     """At rest at (0, 1) with a spring k along x the angle obeys a'' = -k a."""
     p, at = problem(4.0), point(0.0, 1.0)
-    at = replace(at, constants=choose_projection(p, at, spare=False))
+    at = replace(at, constants=cp.choose_projection(p, at, spare=False))
     at = algebraic(p, p.completed(at))
     found = eigenvalues_of(p, at)
     np.testing.assert_allclose(np.sort_complex(found), [-2j, 2j], atol=1e-9)
