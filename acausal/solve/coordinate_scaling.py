@@ -110,8 +110,7 @@ def _terms(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, constants: Con
 def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, np.ndarray]]]]:
     """States of each block by unit, with their entries in equations that several units share.
 
-    First those with a known scale, if any, else those without length and mass in their unit, such as angles; the flag tells
-    whether there are any.
+    First, and flagged, those with a known scale, if any, else those without length and mass in their unit, such as angles.
     """
     c, unknown, found = compiled.constraints, set(compiled.reduced.flat.unknowns.names), []
     known = [declared or unit in unknown for unit, declared in compiled.sizes]

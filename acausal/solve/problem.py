@@ -107,9 +107,7 @@ class Problem:
         """Size of the terms of the residuals of the constraints, and of the entries of their Jacobian."""
         return self.compiled.constraints.terms(at.x, self.p, at.time, at.constants.vector)
 
-    def scaled_jacobians(
-        self, x: np.ndarray, times: np.ndarray, constants: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def scaled_entries(self, x: np.ndarray, times: np.ndarray, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return Jacobians of the constraints by the scaled states, at n points, and the scales.
 
         Parameters

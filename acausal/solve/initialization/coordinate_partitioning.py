@@ -1,8 +1,4 @@
-"""Coordinate partitioning of closed loops, or projection directions, from numerical constraint Jacobians.
-
-Partitioning selects dependent coordinates by pivots (Wehage and Haug 1982); the independent ones are integrated. Otherwise
-states are projected on the constraints along the rows of D.
-"""
+"""Coordinate partitioning of closed loops (Wehage and Haug 1982), or projection directions, from constraint Jacobians."""
 
 from __future__ import annotations
 
@@ -262,7 +258,7 @@ def projection_is_valid(problem: Problem, at: Point) -> bool:
 
 def _jacobians(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
     """Scaled constraint Jacobians and the scales of the states, in the order of `Constraints.entries`."""
-    return problem.scaled_jacobians(rows.x, rows.times, constants.vector)
+    return problem.scaled_entries(rows.x, rows.times, constants.vector)
 
 
 def least_cosine(problem: Problem) -> float:

@@ -64,7 +64,7 @@ class IndependentConstraints:
     def J(self) -> np.ndarray:
         """Jacobian, scaled by equation instead of row: in a singular configuration a single row may vanish."""
         c = self.problem.compiled.constraints
-        J, _ = self.problem.scaled_jacobians(self.x, self.times, self.constants.vector)
+        J, _ = self.problem.scaled_entries(self.x, self.times, self.constants.vector)
         rows = c.entries[0]
         lengths = np.zeros((len(J), c.size))
         np.add.at(lengths.T, rows, J.T**2)
