@@ -197,8 +197,8 @@ def linearize(
 
 def _at_start(compiled: CompiledModel) -> AtStart | None:
     """Return the redundant constraints and independent states of loops, which need consistent positions."""
+    from acausal.solve.initialization.initial_modes import start
     from acausal.solve.problem import Problem
-    from acausal.solve.start.start import start
 
     if not compiled.constraints.size:
         return None

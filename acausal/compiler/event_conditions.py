@@ -237,8 +237,8 @@ class EventConditions:
         return self.motion_of(self.watched)
 
     def motion_of(self, some: Sequence[int]) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Return excesses of some guards, their rates with z held, their Jacobian by the z in them, and what determines the rates
-        of these: the Jacobian of the equations of these z, and the rates of these equations with z held.
+        """Return excesses of some guards, their rates with z held, dg/dz for the z in them, and of the equations h(x, z, t) = 0
+        of these z the Jacobian dh/dz and the rates with z held: dg/dt = g_t - g_z h_z^-1 h_t.
         """
         r, excess = self.reduced, self.excess[list(some)]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)

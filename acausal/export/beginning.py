@@ -11,13 +11,13 @@ from acausal.compiler import CompiledModel
 from acausal.errors import ExportError
 from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
+from acausal.solve.initialization.initial_modes import leave_singular_start, start
+from acausal.solve.initialization.initialize import initial_system
+from acausal.solve.initialization.newton import algebraic
+from acausal.solve.initialization.rank import rank
 from acausal.solve.integrate.order import Spectrum
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.initialize import initial_system
-from acausal.solve.start.newton import algebraic
-from acausal.solve.start.rank import rank
-from acausal.solve.start.start import go_on, start
 from acausal.symbols import scalars, stacked
 
 DEPENDENT = 1e-15  # singular value of rows of length 1 that is rounding
@@ -60,13 +60,13 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     Raises
     ------
     ExportError
-        If it starts in a singular position: equations do not tell how it goes on.
+        If it starts in a singular configuration: equations do not tell how it goes on.
     """
-    begun = start(problem, time, later, initial, decides=False)
+    begun = start(problem, time, later, initial, decided_later=False)
     at = begun.point
-    if go_on(problem, begun) is not at:
+    if leave_singular_start(problem, begun) is not at:
         raise ExportError(
-            f"the model starts in a singular position, t = {time:g} s, from where equations alone lead no further. Let it "
+            f"the model starts in a singular configuration, t = {time:g} s, from where equations alone lead no further. Let it "
             "start beside that."
         )
     system = initial_system(problem, at, initial)

@@ -17,11 +17,11 @@ from acausal.export.beginning import Beginning
 from acausal.export.given import Given
 from acausal.export.limits import Limit, limits
 from acausal.language.functions import time
+from acausal.solve.initialization.assembly import levels
+from acausal.solve.initialization.coordinate_partitioning import choose_projection, closing_scales
+from acausal.solve.initialization.independent_constraints import closure_of
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import closure_of
-from acausal.solve.start.loop_states import choose_projection, sparing
-from acausal.solve.start.loops import levels
 from acausal.symbols import scalars, stacked
 
 VERSION = 6
@@ -110,7 +110,7 @@ class Content:
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),
-            "nominal": floats([self.span, self.tolerance, *self.nominal, *self.problem.reaches, *self._follows]),
+            "nominal": floats([self.span, self.tolerance, *self.nominal, *self.problem.loop_scales, *self._follows]),
             "natural": floats(self.nominal[c.nx :]),
         }
 
@@ -145,7 +145,7 @@ class Content:
         """Sizes of the states with which loops follow a jump."""
         if not self.compiled.constraints.size:
             return self.problem.nominal[: self.compiled.nx]
-        return sparing(self.problem, self.beginning.at, np.empty(0, dtype=int))
+        return closing_scales(self.problem, self.beginning.at, np.empty(0, dtype=int))
 
     @cached_property
     def _limits(self) -> list[Limit]:

@@ -64,7 +64,7 @@ class Rescue:
     # Halvings of an output interval with new choices of states: 2^-6 of it.
     halvings: int = 6
     # Steps in each of the last tries, and by how much the tolerance is loosened in them, and at most to what: near a
-    # singular position of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).
+    # singular configuration of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).
     patient: int = 20_000
     # Looks at the end of a run that was given up: each so many times nearer, and how many.
     nearer: float = 4.0
@@ -109,7 +109,7 @@ class Calls:
     rounding: float = 1e-14
     near_rounding: float = 1e-8
     # What the Newton iteration may leave, as a fraction of the tolerance: errors of a loose one excite lightly damped
-    # vibrations, which then cost steps; near a singular position of a loop they are enlarged.
+    # vibrations, which then cost steps; near a singular configuration of a loop they are enlarged.
     newton: float = 0.05
     newton_in_loops: float = 0.005
     # First step of the one-step method, as a fraction of the call; that of a gentle call of the other changes states by

@@ -64,7 +64,7 @@ class Ranks:
     motions: int = 3
     # How well the loops must close after such a motion: its effect on ranks is that of `closed` over `motion`.
     moved: float = 1e-10
-    # Singular values that a step of least norm takes as 0, and those that polishing does: beside a singular position.
+    # Singular values that a step of least norm takes as 0, and those that polishing does: beside a singular configuration.
     least_norm: float = 1e-12
     polish: float = 1e-7
     # A constraint that cannot be dropped counts as that much longer than others.
@@ -85,7 +85,7 @@ class Loops:
     opened: float = 1e-4
     # Rows of a run at which that is looked at: a loop that opens may close again after whole turns.
     seen: int = 20
-    # Rates beside a singular position are known only as well as the root of that, but for a factor.
+    # Rates beside a singular configuration are known only as well as the root of that, but for a factor.
     rough: float = 1e-6
     # Disturbances of the guesses, in nominal values, after which closing is tried again: a loop that folds the wrong way
     # needs a large one.
@@ -127,11 +127,11 @@ class Loops:
     # vibrations thirty times as fast. What their sizes count then, over those of others.
     stiffer: float = 1e3
     stiff: float = 1e-6
-    # Way out of a singular position in nominal values: its square is the error of what is left out.
+    # Way out of a singular configuration in nominal values: its square is the error of what is left out.
     away: float = 1e-4
     # Change of speeds on it, over the greatest: on a branch it is of the order of the way.
     stays: float = 1e-2
-    # Speed of joints, in nominal values, that is rest: rates of a singular position are known no better than that.
+    # Speed of joints, in nominal values, that is rest: rates of a singular configuration are known no better than that.
     rest: float = 1e-4
     # What a coordinate is integrated by follows it; beyond this fraction of its size it has lost it.
     apart: float = 0.1

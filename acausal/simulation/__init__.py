@@ -5,6 +5,6 @@ from acausal.simulation.fixed_step import March, march
 from acausal.simulation.linearize import Linearization, linearize
 from acausal.simulation.result_of import result_of
 from acausal.simulation.simulate import simulate
-from acausal.solve.beginning import forget
+from acausal.solve.initialization.initial_point import forget
 
 __all__ = ["CompiledStep", "Linearization", "March", "forget", "linearize", "march", "result_of", "simulate"]

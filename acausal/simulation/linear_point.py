@@ -12,10 +12,10 @@ from acausal.compiler.memo import memoized
 from acausal.errors import caution
 from acausal.flatten.component_tree import walk
 from acausal.language.functions import time
-from acausal.solve.points import Point
+from acausal.solve.initialization.equilibrium_test import at_rest, counters, rates_allowed
+from acausal.solve.initialization.steady_rotation import SteadyRotation, changes, cyclic_spaces, steady_rotation
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.at_rest import at_rest, meters, rates_allowed
-from acausal.solve.start.rotation import Turning, changes, cyclic, turning
 
 NAMED = 3  # rates that a warning names
 
@@ -36,10 +36,10 @@ def check_point(problem: Problem, at: Point, slopes_at: Callable[[Point], np.nda
     rates = problem.local(at).value[: problem.nx]
     if constant or not (by_time or len(_moving(problem, at, rates))) or at_rest(problem, at):
         return
-    spaces = cyclic(problem, at)
-    turn = turning(problem, at, spaces)
+    spaces = cyclic_spaces(problem, at)
+    turn = steady_rotation(problem, at, spaces)
     if turn is None:
-        rates = Turning(spaces[0], np.zeros(problem.nx), np.inf).others(problem, at)
+        rates = SteadyRotation(spaces[0], np.zeros(problem.nx), np.inf).others(problem, at)
         moving = _moving(problem, at, rates)
         if len(moving):
             caution(_no_equilibrium_text(problem, at.time, rates, moving))
@@ -60,7 +60,7 @@ def _depends(compiled: CompiledModel) -> tuple[bool, bool]:
 
 def _moving(problem: Problem, at: Point, rates: np.ndarray) -> np.ndarray:
     """Return the states with nonzero rates, the largest relative to their nominal values first."""
-    moving = np.setdiff1d(np.flatnonzero(~(np.abs(rates) <= rates_allowed(problem, at))), meters(problem.compiled))
+    moving = np.setdiff1d(np.flatnonzero(~(np.abs(rates) <= rates_allowed(problem, at))), counters(problem.compiled))
     return moving[np.argsort(-np.abs(rates[moving]) / problem.nominal[moving], kind="stable")]
 
 
@@ -95,7 +95,7 @@ def _no_equilibrium_text(problem: Problem, at: float, rates: np.ndarray, moving:
     )
 
 
-def _periodic_text(problem: Problem, turn: Turning, changing: str) -> str:
+def _periodic_text(problem: Problem, turn: SteadyRotation, changing: str) -> str:
     compiled, size = problem.compiled, problem.nominal[: problem.nx]
     fastest = int(np.argmax(np.abs(turn.rates) / size)) if turn.rates.any() else -1
     what = f"{compiled.states[fastest]} turns" if fastest >= 0 else "time goes on"

@@ -20,12 +20,12 @@ from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
 from acausal.simulation.model_settings import check_number, effective_settings
-from acausal.solve.causes import cause, infinite_slope
-from acausal.solve.opening import opening
-from acausal.solve.points import Point
+from acausal.solve.diagnosis.not_finite import cause, infinite_slope
+from acausal.solve.initialization.independent_constraints import smallest_singular_value
+from acausal.solve.initialization.initial_events import first_point
+from acausal.solve.initialization.tangent_space import Elimination, tangent
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import least_sharpness
-from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
 # Smallest singular value relative to the largest, below which it is round-off of the zero of a free coordinate.
@@ -132,23 +132,23 @@ def linearize(
     check_number("time", time)
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
-    at = opening(problem, time, how)
+    at = first_point(problem, time, how)
     _refuse_singular(problem, at, how == "steady")
     inputs, nx = _inputs(compiled), compiled.nx
     slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in inputs]))
     slopes = slopes_at(at)
     check_point(problem, at, slopes_at)
-    N, chosen = tangent(problem, at)
+    N, independent = tangent(problem, at)
     # Derivatives by the independent states and the inputs.
     slopes = np.hstack([slopes[:, :nx] @ N, slopes[:, nx:]])
-    (A, B), (C, D) = (np.split(rows, [len(chosen)], axis=1) for rows in (slopes[chosen], slopes[nx:]))
+    (A, B), (C, D) = (np.split(rows, [len(independent)], axis=1) for rows in (slopes[independent], slopes[nx:]))
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name))]
     return Linearization(
         A=A,
         B=B,
         C=C,
         D=D,
-        states=tuple(compiled.states[k] for k in chosen),
+        states=tuple(compiled.states[k] for k in independent),
         inputs=tuple(name for name, _ in inputs),
         outputs=tuple(names),
     )
@@ -156,7 +156,7 @@ def linearize(
 
 def _refuse_singular(problem: Problem, at: Point, rests: bool) -> None:
     """Refuse singular configurations; near one, an equilibrium is too inexact for the large forces there."""
-    if least_sharpness(problem, at) <= (POLICY.loops.flat if rests else NEARLY_SINGULAR):
+    if smallest_singular_value(problem, at) <= (POLICY.loops.flat if rests else NEARLY_SINGULAR):
         raise InitializationError(f"the model cannot be linearised: {SINGULAR_AT_REST if rests else SINGULAR}")
 
 

@@ -15,7 +15,7 @@ from acausal.locks import exclusive
 from acausal.result import Result
 from acausal.result.from_arrays import checked_columns, checked_outputs, checked_times, snapshot_of
 from acausal.result.lookup import find, names
-from acausal.solve.given import evaluator_of
+from acausal.solve.results.external import evaluator_of
 from acausal.units import parse
 
 

@@ -13,9 +13,9 @@ from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.simulation.model_settings import check_number, effective_settings
+from acausal.solve.initialization.initialize import INITIAL
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task
-from acausal.solve.start.initialize import INITIAL
 
 CHOICES = ("auto", "idas", "rosenbrock", "resolve")
 CONSTRAINTS = ("auto", "states", "projection")

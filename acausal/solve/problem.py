@@ -1,4 +1,4 @@
-"""What every stage of a run works on: a model with its parameters."""
+"""A model with parameter values: its functions at points of a run."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from acausal.compiler.memo import memoized
 from acausal.compiler.vectorized import Vectorized
 from acausal.core import Settler, library
 from acausal.policy import POLICY
-from acausal.solve.points import Point, Rows
-from acausal.solve.reach import reaches
+from acausal.solve.coordinate_scaling import loop_scales
+from acausal.solve.point import Point, Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,9 +31,9 @@ class Problem:
     p : array
         Values of its free parameters.
     feedback : float
-        How fast states return to invariants, in 1/s.
+        Decay rate of errors of invariants, in 1/s.
     runs : bool
-        Whether it is integrated, for which the core's equations of the algebraic unknowns are made in any case.
+        Whether the model is integrated, so that the core has the equations of the algebraic unknowns anyway.
     """
 
     compiled: CompiledModel
@@ -53,13 +53,13 @@ class Problem:
 
     @property
     def nominal(self) -> np.ndarray:
-        """Declared sizes of states and algebraic unknowns."""
+        """Nominal values of states and algebraic unknowns."""
         return self.compiled.nominal
 
     @property
-    def reaches(self) -> np.ndarray:
-        """Sizes of the states where they close loops."""
-        return reaches(self.compiled, self.p)
+    def loop_scales(self) -> np.ndarray:
+        """Scales of the states in closed loops, see `coordinate_scaling`."""
+        return loop_scales(self.compiled, self.p)
 
     @property
     def rates(self) -> list[tuple[int, int]]:
@@ -68,47 +68,47 @@ class Problem:
 
     @cached_property
     def hoisted(self) -> np.ndarray:
-        """What the integrated equations need of the parameters."""
+        """Subexpressions of the integrated equations that depend on parameters alone."""
         return self.compiled.hoist(self.p)[0].copy()
 
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
-        """Return ode, alg and conditions; `flag` is 1 while the initial system holds. Overwritten by the next call."""
+        """Return ode, alg and conditions; `flag` is 1 for the initial system. The next call overwrites the array."""
         return self.compiled.values(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0]
 
     def local(self, at: Point, flag: float = 0.0) -> PointLinearization:
-        """Return the same with their Jacobian by states and algebraic unknowns."""
+        """Return `values` with their Jacobian by states and algebraic unknowns."""
         return self.compiled.at(at.x, at.z, self.p, at.time, at.constants.vector, flag)
 
     def unknowns(self, at: Point, flag: float = 0.0) -> np.ndarray:
-        """Return all unknowns of the model as it was stated, those that are solved explicitly too."""
+        """Return all unknowns of the model, including those that are solved explicitly."""
         return full_residuals(self.compiled).unknowns(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0].copy()
 
     def constraints(self, at: Point) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return the residuals of the constraints and their Jacobian by the states."""
         return self.compiled.constraints(at.x, self.p, at.time, at.constants.vector)
 
-    def gradients(self, at: Point) -> scipy.sparse.csc_matrix:
-        """Return the Jacobian of the constraints by the states over their sizes.
+    def scaled_gradients(self, at: Point) -> scipy.sparse.csc_matrix:
+        """Return the Jacobian of the constraints by the scaled states.
 
-        Rows are 0 that are nearly so beside others of their equation, or beside what cancels in them.
+        Rows at round-off level, relative to other rows of their equation or to their own terms, are 0.
         """
-        J = by_columns(self.constraints(at)[1], self.reaches)
+        J = by_columns(self.constraints(at)[1], self.loop_scales)
         length = lengths(J)
-        largest = self._largest_alike(length)
+        largest = self._largest_of_equation(length)
         faint = (largest > 0) & (largest <= POLICY.ranks.faint * max(1.0, np.max(length, initial=0.0)))
         if faint.any():
             entries = with_entries(self.compiled.constraints.pattern, self._terms(at)[1])
-            adds_up = self._largest_alike(lengths(by_columns(entries, self.reaches)))
+            adds_up = self._largest_of_equation(lengths(by_columns(entries, self.loop_scales)))
             largest = np.where(faint, np.maximum(largest, adds_up), largest)
         J.data[(length <= POLICY.ranks.rank * largest)[J.indices]] = 0.0
         return J
 
     def _terms(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
-        """Size of what adds up in the residuals of the constraints, and in the entries of their Jacobian."""
+        """Size of the terms of the residuals of the constraints, and of the entries of their Jacobian."""
         return self.compiled.constraints.terms(at.x, self.p, at.time, at.constants.vector)
 
-    def held_in_sizes(self, x: np.ndarray, times: np.ndarray, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return Jacobians of the constraints for states in their sizes, at n points, and the sizes.
+    def scaled_entries(self, x: np.ndarray, times: np.ndarray, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return Jacobians of the constraints by the scaled states, at n points, and the scales.
 
         Parameters
         ----------
@@ -120,68 +120,68 @@ class Problem:
         Returns
         -------
         J : array, shape (n, entries)
-            As `Constraints.entries` has them.
+            In the order of `Constraints.entries`.
         sizes : array, shape (entries,)
         """
         c = self.compiled.constraints
-        sizes = self.reaches[c.entries[1]]
+        sizes = self.loop_scales[c.entries[1]]
         return c.held(x, self.p, times, constants) * sizes, sizes
 
-    def gaps(self, at: Point) -> np.ndarray:
-        """Return the residuals of the constraints, over the change that the sizes of the states make in them.
+    def closure_errors(self, at: Point) -> np.ndarray:
+        """Return the residuals of the constraints, relative to their changes with the scales of the states.
 
-        Entries of one equation have one such size: at a dead centre one of them has no gradient. What no state changes, as
-        of parts that are welded to a loop, counts beside what adds up in it.
+        Entries of one equation have a common scale, because at a dead centre one of them has no gradient. Residuals that no
+        state changes, such as those of parts welded to a loop, are relative to their terms.
         """
-        return self.constraints(at)[0] / self.sizes(at)
+        return self.constraints(at)[0] / self.residual_scales(at)
 
-    def sizes(self, at: Point) -> np.ndarray:
-        """Return the change that the sizes of the states make in each residual of the constraints, see `gaps`."""
-        return self.sized(at)[0]
+    def residual_scales(self, at: Point) -> np.ndarray:
+        """Return the scale of each residual of the constraints, see `closure_errors`."""
+        return self.residual_scales_and_rigid(at)[0]
 
-    def sized(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
-        """Return the sizes of the residuals, and which of them no state changes by more than rounding."""
-        own, c = lengths(self.gradients(at)), self.compiled.constraints
+    def residual_scales_and_rigid(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+        """Return the scales of the residuals, and which of them no state changes by more than round-off."""
+        own, c = lengths(self.scaled_gradients(at)), self.compiled.constraints
         forces = [row for k, rows in enumerate(c.rows) if k not in c.of_loops for row in rows]
         if forces:
-            # Where a force has no direction its gradient is very large, but not beside it.
-            away = np.random.default_rng(0).standard_normal(self.nx) * self.reaches
-            beside = self.gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
+            # Where the direction of a force is undefined its gradient is very large, but not next to that point.
+            away = np.random.default_rng(0).standard_normal(self.nx) * self.loop_scales
+            beside = self.scaled_gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
             own[forces] = np.minimum(own[forces], np.nan_to_num(lengths(beside)))
-        sizes = self._largest_alike(own)
+        sizes = self._largest_of_equation(own)
         rigid = sizes == 0
         if np.any(self.constraints(at)[0][rigid]):
-            sizes = np.where(rigid, self._largest_alike(self._terms(at)[0]), sizes)
+            sizes = np.where(rigid, self._largest_of_equation(self._terms(at)[0]), sizes)
         return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0), rigid
 
-    def _largest_alike(self, own: np.ndarray) -> np.ndarray:
-        """Largest of the values of the constraints' residuals, among those of the same equation, for each residual."""
+    def _largest_of_equation(self, own: np.ndarray) -> np.ndarray:
+        """Largest value among the residuals of the same equation, for each residual of the constraints."""
         kinds = self.compiled.constraints.kinds
         most = np.zeros(len(kinds))
         np.maximum.at(most, kinds, own)
         return most[kinds]
 
     def projected(self, at: Point) -> Point:
-        """Return the point with every coordinate where the constraints have it, multipliers 0."""
+        """Return the point with coordinates projected on the constraints, multipliers 0."""
         c, z = self.compiled.constraints, at.z.copy()
         z[c.multipliers] = 0.0
         return replace(at, x=c.project(at.x, at.z, self.p, at.time, at.constants.vector), z=z)
 
     def solved(self, at: Point, most: int) -> Point | None:
-        """Return the point with all algebraic unknowns solved for by the core; None where that takes more evaluations.
+        """Return the point with all algebraic unknowns solved for by the core, in at most so many evaluations.
 
-        None also for what is not integrated.
+        None if it takes more, or if the model is not integrated.
         """
-        settler, z = self._settled(at)
+        settler, z = self._solved_by_core(at)
         return replace(at, z=z) if settler and z is not None and settler.evaluations <= most else None
 
     def least_pivot(self, at: Point) -> float:
-        """Return the least pivot of the algebraic equations over its terms; 0 where the core does not solve them."""
-        settler, z = self._settled(at)
+        """Return the least pivot of the algebraic equations relative to its terms; 0 if the core does not solve them."""
+        settler, z = self._solved_by_core(at)
         return settler.least if settler and z is not None else 0.0
 
-    def _settled(self, at: Point) -> tuple[Settler | None, np.ndarray | None]:
-        """Solve for all algebraic unknowns by the core, where it has the equations; None where that does not converge."""
+    def _solved_by_core(self, at: Point) -> tuple[Settler | None, np.ndarray | None]:
+        """Solve for all algebraic unknowns by the core, if it has the equations; None if that does not converge."""
         if not (self.runs and library() and self.nz):
             return None, None
         settler = Settler(core_square(self.compiled, tuple(range(self.nz))))
@@ -198,8 +198,8 @@ class Problem:
         z[self.compiled.constraints.multipliers] = 0.0
         return replace(at, z=z)
 
-    def watched(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
-        """Return the watched excesses and their time derivatives, one row for each time."""
+    def indicators(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
+        """Return the event indicators and their time derivatives, one row for each time."""
         found = self._motion(rows) if library() else self.each(self.compiled.guards.along, rows)
         n = found.shape[1] // 2
         return found[:, :n], np.where(np.isfinite(found[:, n:]), found[:, n:], 0.0)
@@ -208,13 +208,13 @@ class Problem:
         tape = core_motion(self.compiled)[1]
         given = self.p, rows.constants, rows.x, rows.z, rows.times[:, None]
         rates = np.zeros(tape.sizes[-1])
-        if self._settler:  # its equations are linear: one step is enough
-            rates, solved = self._settler(*given, rates, size=np.ones(len(rates)), enough=np.inf)
+        if self._rate_solver:  # linear equations: one step suffices
+            rates, solved = self._rate_solver(*given, rates, size=np.ones(len(rates)), enough=np.inf)
             rates[~solved] = np.nan
         return tape.rows(*given, rates)
 
     @cached_property
-    def _settler(self) -> Settler | None:
+    def _rate_solver(self) -> Settler | None:
         square = core_motion(self.compiled)[0]
         return Settler(square) if square else None
 

@@ -17,27 +17,27 @@ from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.signals import Signals
-from acausal.solve.beginning import Beginning, begin
-from acausal.solve.checks.departed import first_refusal, refuse_departure
-from acausal.solve.checks.opened import opened
-from acausal.solve.checks.promises import broken_promises
-from acausal.solve.checks.validity import doubts
+from acausal.solve.checks.constraint_drift import first_violation, refuse_constraint_drift
+from acausal.solve.checks.loop_drift import loop_drift
+from acausal.solve.checks.mobility import mobility_warnings
+from acausal.solve.checks.smoothness import smoothness_warnings
+from acausal.solve.checks.validity import validity_warnings
+from acausal.solve.diagnosis.failure import failure_text
 from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
-from acausal.solve.failed import failure_text
+from acausal.solve.initialization.initial_point import InitialPoint, initial_point
+from acausal.solve.initialization.initialize import Start
 from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.initialize import Start
-from acausal.solve.start.locked import locked
+from acausal.solve.results.evaluator import Evaluator
 
 PLAIN = 10  # numbers of each output beside its values
 SHOWN = 5  # times in a message
@@ -82,7 +82,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     # A run costs what it costs, whichever run before it left its beginning.
     seconds = beginning.seconds + clock.perf_counter() - begun - building
     done.integrator.trace.building = building + at_first - made
-    met = None if isinstance(done.failure, KeyboardInterrupt) else first_refusal(done.integrator, done.first)
+    met = None if isinstance(done.failure, KeyboardInterrupt) else first_violation(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)
     result = _result(done, plan, _counted(done, plan, task, seconds), task.energy)
@@ -99,7 +99,7 @@ def sizes_of_run(compiled: CompiledModel, p: np.ndarray, task: Task) -> np.ndarr
     done = _integrated(*_begun(compiled, p, task), task)
     if isinstance(done.failure, KeyboardInterrupt):
         raise done.failure
-    refuse_departure(done.integrator, done.first)
+    refuse_constraint_drift(done.integrator, done.first)
     return done.integrator.settings.nominal
 
 
@@ -132,10 +132,10 @@ class _Done:
         return (self.course.first or self.at) if self.at is self.begun.point else self.begun.point
 
 
-def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, Beginning]:
+def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, InitialPoint]:
     problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time), runs=True)
     plan = _plan(problem, task)
-    return problem, plan, begin(problem, task.start_time, plan.inside, task.initial)
+    return problem, plan, initial_point(problem, task.start_time, plan.inside, task.initial)
 
 
 def _plan(problem: Problem, task: Task) -> _Plan:
@@ -153,7 +153,7 @@ def _plan(problem: Problem, task: Task) -> _Plan:
     return _Plan(times, breaks, _breaks([*breaks, *found], begin, end))
 
 
-def _integrated(problem: Problem, plan: _Plan, beginning: Beginning, task: Task) -> _Done:
+def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Task) -> _Done:
     """Integrate, again where states turn out to be much smaller than they were taken for."""
     at, span = beginning.at, task.stop_time - task.start_time
     settings = Settings(
@@ -247,7 +247,7 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         event_times=done.course.events,
         loops=lambda: loops_at(compiled.reduced, begun.found(compiled)),
         redundant_in_parts=lambda: parts_at(compiled.reduced, begun.found(compiled)),
-        independent_states=lambda: list(begun.independent),
+        independent_states=lambda: list(begun.independent_states),
     )
 
 
@@ -258,9 +258,9 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     whole = np.array_equal(rows.times, times)
     output = rows if whole else rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
-    found = doubts(evaluate) + broken_promises(integrator, evaluate)
-    found += locked(integrator.problem, done.begun.point, done.begun.redundancy.dropped)
-    found += opened(integrator.consistent, rows) + done.course.idle()
+    found = validity_warnings(evaluate) + smoothness_warnings(integrator, evaluate)
+    found += mobility_warnings(integrator.problem, done.begun.point, done.begun.redundancy.redundant)
+    found += loop_drift(integrator.consistent, rows) + done.course.idle()
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
         if integrator.trace.rough:
@@ -285,7 +285,7 @@ def _loosened(integrator: Integrator) -> list[str]:
     shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
     return [
         f"no step was short enough for the tolerance {integrator.tolerance:g} after t = {shown} s, as happens near a "
-        "singular position; a larger one was taken for one output interval each time, and the error may be larger from there on."
+        "singular configuration; a larger one was taken for one output interval each time; errors may be larger afterwards."
     ]
 
 

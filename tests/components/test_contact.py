@@ -1,4 +1,4 @@
-"""Contacts: restitution, duration of impact, friction, geometry and singular positions against closed forms."""
+"""Contacts: restitution, duration of impact, friction, geometry and singular configurations against closed forms."""
 
 from __future__ import annotations
 

@@ -9,8 +9,8 @@ from typer.testing import CliRunner
 import acausal as ac
 from acausal import Model, Scalar, der, output, time, variable
 from acausal.cli import app
-from acausal.solve.causes import without_value
-from acausal.solve.points import Point
+from acausal.solve.diagnosis.not_finite import undefined_equations
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from models import SimplePendulum, SliderCrank
 
@@ -69,7 +69,7 @@ def test_a_stop_time_that_is_too_large(scene, stop_time):
         ac.simulate(scene(), stop_time=stop_time)
     text = str(caught.value)
     assert f"stop_time={stop_time:g} is too large" in text
-    assert "Let the run end earlier" in text
+    assert "End the run earlier" in text
     assert "equations above" not in text
 
 
@@ -83,7 +83,7 @@ def test_a_number_that_is_not_finite_by_itself_is_told():
     compiled = ac.compile(Aging())
     problem = Problem(compiled, compiled.parameter_values(None))
     at = Point(np.nan, np.ones(1), np.empty(0), compiled.layout.begin(np.empty(0), 1.0))
-    assert "holds a number that is not finite" in without_value(problem, at)
+    assert "holds a number that is not finite" in undefined_equations(problem, at)
 
 
 def test_before_the_explosion_all_is_well():

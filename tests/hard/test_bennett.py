@@ -13,10 +13,10 @@ import acausal as ac
 from acausal import connect, fixed, parts, piecewise, sin
 from acausal.compiler.constants import Constants
 from acausal.core import library
-from acausal.solve.points import Point
+from acausal.solve.initialization.independent_constraints import IndependentConstraints, selection
+from acausal.solve.initialization.initial_modes import start
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held, kept_again
-from acausal.solve.start.start import start
 from components import Revolute
 from components.rotational import Torque
 from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneCrank, Row, TwoCranks, energies, joints
@@ -156,8 +156,8 @@ def test_a_second_crank_changes_nothing(method: str) -> None:
         within("force of the rocker, tolerances", float(np.abs(forces - expected).max() / largest / tolerance), 1e5)
 
 
-def held(problem: Problem, at: Point, constants: Constants) -> Held:
-    return Held.at(problem, replace(at, constants=constants))
+def held(problem: Problem, at: Point, constants: Constants) -> IndependentConstraints:
+    return IndependentConstraints.at(problem, replace(at, constants=constants))
 
 
 def test_what_is_kept_is_independent() -> None:
@@ -167,16 +167,16 @@ def test_what_is_kept_is_independent() -> None:
     at = start(problem, 0.0, 1.0, "fixed").point
     closures = len(at.constants.closures)
     chosen = [np.isin(np.arange(closures), kept).astype(float) for kept in combinations(range(closures), 3)]
-    found = [held(problem, at, replace(at.constants, closures=kept)).fitness[0] for kept in chosen]
-    J = problem.gradients(at)[compiled.constraints.lowest].toarray().reshape(2, 3, -1)
+    found = [held(problem, at, replace(at.constants, closures=kept)).conditioning[0] for kept in chosen]
+    J = problem.scaled_gradients(at)[compiled.constraints.lowest].toarray().reshape(2, 3, -1)
     J = (J / np.linalg.norm(J, axis=2).max(axis=1)[:, None, None]).reshape(6, -1)
     kept = [np.linalg.svd(J[on > 0], compute_uv=False)[-1] for on in chosen]
     np.testing.assert_allclose(np.array(found) * np.linalg.svd(J, compute_uv=False)[2], kept, atol=1e-7)
     worst = replace(at.constants, closures=chosen[int(np.argmin(found))])
-    again = kept_again(held(problem, at, worst))
+    again = selection(held(problem, at, worst))
     assert np.sum(again.closures) == 3
-    assert held(problem, at, again).fitness[0] > 0.7 * max(found)
-    assert held(problem, at, replace(worst, closures=np.ones(closures))).fitness[0] == 1
+    assert held(problem, at, again).conditioning[0] > 0.7 * max(found)
+    assert held(problem, at, replace(worst, closures=np.ones(closures))).conditioning[0] == 1
 
 
 @pytest.mark.slow
@@ -191,16 +191,16 @@ def test_a_large_mechanism_keeps_what_is_independent() -> None:
     at = start(problem, 0.0, 1.0, "fixed").point
     right = at.constants.closures
     assert np.sum(right) > 100
-    J = problem.gradients(at)[compiled.constraints.lowest].toarray()
+    J = problem.scaled_gradients(at)[compiled.constraints.lowest].toarray()
     J /= np.linalg.norm(J.reshape(-1, 3, J.shape[1]), axis=2).max(axis=1).repeat(3)[:, None]
     shares = np.linalg.lstsq(J[right > 0].T, J[right == 0].T, rcond=None)[0]
-    found = held(problem, at, at.constants).fitness[0]
+    found = held(problem, at, at.constants).conditioning[0]
     assert found == pytest.approx((1 + np.linalg.norm(shares, 2) ** 2) ** -0.5, rel=1e-2)
     wrong = right.copy()
     # One of the first loop for one of the last.
     wrong[np.flatnonzero(right)[0]], wrong[np.flatnonzero(right == 0)[-1]] = 0, 1
     unfit = replace(at.constants, closures=wrong)
-    assert held(problem, at, unfit).fitness[0] < 0.5 * found
-    again = kept_again(held(problem, at, unfit))
+    assert held(problem, at, unfit).conditioning[0] < 0.5 * found
+    again = selection(held(problem, at, unfit))
     assert np.sum(again.closures) == np.sum(right)
-    assert held(problem, at, again).fitness[0] > 0.9 * found
+    assert held(problem, at, again).conditioning[0] > 0.9 * found

@@ -41,7 +41,7 @@ class Across(Model):
 @pytest.mark.parametrize("axial", ["none", "quasi_static"])
 @pytest.mark.parametrize("method", ["auto", "idas"])
 def test_what_cannot_bend_without_shortening_is_refused(scene, axial, method):
-    with pytest.raises(ac.InitializationError, match="singular position"):
+    with pytest.raises(ac.InitializationError, match="singular configuration"):
         ac.simulate(scene(axial=axial), stop_time=0.1, initial="guesses", method=method)
 
 

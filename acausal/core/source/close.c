@@ -1,4 +1,4 @@
-/* Close loops after a jump: the states change by little, over their sizes, until the constraints hold; as `descent.py`. */
+/* Close loops after a jump: the states change by little, over their sizes, until the constraints hold; as `levenberg_marquardt.py`. */
 #include "instance.h"
 
 #include <math.h>

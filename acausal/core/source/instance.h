@@ -57,7 +57,7 @@ struct ac_unit {
     int32_t standing;
     ac_level level[AC_LEVELS];
     const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
-    const double *nominal, *reach, *follows, *size; /* (nx + nz); (nx) where they close loops, see `reach.py`, and follow a jump; (nz) below which changes are rounding, see `settle.c` */
+    const double *nominal, *reach, *follows, *size; /* (nx + nz); (nx) where they close loops, see `coordinate_scaling.py`, and follow a jump; (nz) below which changes are rounding, see `settle.c` */
     const double *bound;                    /* (limits, 3): least value of each, 1 where it has to be above that, and what it is */
     const char *limited;                    /* names of parameters, or what is wrong otherwise, each with a 0 at its end */
     double span, tolerance;

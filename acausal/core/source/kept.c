@@ -1,5 +1,5 @@
 /* Constraints of closed loops: how far they are from a flat position, and which are kept of some that follow from one another.
-   Which of them follow from the others changes with the position; as `kept.py`. */
+   Which of them follow from the others changes with the position; as `independent_constraints.py`. */
 #include "instance.h"
 
 #include <float.h>

@@ -18,8 +18,8 @@ from acausal.language import fields as f
 from acausal.language.condition import Condition, Joined
 from acausal.language.functions import initial, time
 from acausal.policy import POLICY
+from acausal.solve.initialization.initial_modes import start
 from acausal.solve.problem import Problem
-from acausal.solve.start.start import start
 from acausal.symbols import dense, scalars, stacked
 
 CHOSEN = (

@@ -1,1 +1,1 @@
-"""Whether a run was used within what its components and laws promise."""
+"""Checks of a run: validity of components, smoothness of laws, drift of redundant constraints."""

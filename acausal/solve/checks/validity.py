@@ -1,4 +1,4 @@
-"""Whether a model is valid where it is used: what must hold at the start, and what it neglects in a run."""
+"""Validity of components: requirements at the start, and effects neglected in a run."""
 
 from __future__ import annotations
 
@@ -17,37 +17,37 @@ from acausal.flatten.opaque_calls import refuse_undeclared
 from acausal.language.functions import initial, time
 from acausal.language.validity_statements import Expectation, Separation
 from acausal.policy import POLICY
-from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.results.evaluator import Evaluator
 from acausal.symbols import stacked
 
 VALIDITY = POLICY.validity
 
 
 @dataclass(frozen=True)
-class Watch:
-    """Statements of a compiled model, and the function of them."""
+class Statements:
+    """Validity statements of a compiled model, and the function that evaluates them."""
 
     stated: list[Any]
     function: Vectorized
     wanted: frozenset[int]
 
 
-def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> Watch:
-    """Make the function of expressions in symbols of the model, one row of the result for each point."""
+def compiled_statements(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> Statements:
+    """Compile validity statements from their expressions in symbols of the model."""
     r = compiled.reduced
     column = r.running.resolve(stacked(entries))
     arguments = [r.x, r.z, r.p, time.sx, r.constants]
     try:
-        function = ca.Function("watch", arguments, [ca.densify(column)])
+        function = ca.Function("statements", arguments, [ca.densify(column)])
     except RuntimeError:
         for k, entry in enumerate(entries):
             origin = stated[k * len(stated) // len(entries)][1]
             refuse_undeclared(r.resolve(entry), [*arguments, initial.sx], f"{origin}: ")
         raise
-    return Watch(stated, Vectorized(function), frozenset(compiled.dependence.inside(column)))
+    return Statements(stated, Vectorized(function), frozenset(compiled.dependence.inside(column)))
 
 
 @memoized
@@ -56,34 +56,34 @@ def _validity(compiled: CompiledModel) -> list[Stated]:
 
 
 @memoized
-def separations(compiled: CompiledModel) -> Watch:
-    """What must not meet in a run: rate, effect and offset of each, in turn."""
+def separations(compiled: CompiledModel) -> Statements:
+    """Points that must not coincide: rate, effect and offset of each pair, in turn."""
     stated = [item for item in _validity(compiled) if isinstance(item[0], Separation)]
-    return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)])
+    return compiled_statements(compiled, stated, [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)])
 
 
 @memoized
-def _expectations(compiled: CompiledModel) -> Watch:
+def _expectations(compiled: CompiledModel) -> Statements:
     stated = [item for item in _validity(compiled) if isinstance(item[0], Expectation)]
-    return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.part, s.whole)])
+    return compiled_statements(compiled, stated, [e.sx for s, _ in stated for e in (s.part, s.whole)])
 
 
 @memoized
-def _at_start(compiled: CompiledModel) -> Watch:
+def _at_start(compiled: CompiledModel) -> Statements:
     stated = compiled.requirements.at_start
-    return watch(compiled, stated, [r.sx for r, _ in stated])
+    return compiled_statements(compiled, stated, [r.sx for r, _ in stated])
 
 
 def check_start(problem: Problem, at: Point) -> None:
-    """Raise InitializationError if variables break a requirement at the start."""
+    """Raise InitializationError if variables violate a requirement at the start."""
     found = _at_start(problem.compiled)
     if found.stated:
         row = problem.each(found.function, Rows.of(at))[0]
         refuse(found.stated, row, InitializationError)
 
 
-def doubts(outputs: Evaluator) -> list[str]:
-    """Say what components neglected although it was not small; at most VALIDITY.rows of the points are checked.
+def validity_warnings(outputs: Evaluator) -> list[str]:
+    """Return warnings on neglected effects that were not small; at most VALIDITY.rows of the points are checked.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def doubts(outputs: Evaluator) -> list[str]:
     share = np.array([expectation.share for expectation, _ in seen.stated])
     part, whole = _parts(problem.each(seen.function, rows))
     if seen.wanted:
-        # The integrator's own values show where nothing is near its limit.
+        # The values of the integrator suffice where all effects are far from their limits.
         near = np.flatnonzero(np.any(part > VALIDITY.nearly * share * np.max(whole, axis=0), axis=1))
         if not near.size:
             return []
@@ -116,7 +116,7 @@ def doubts(outputs: Evaluator) -> list[str]:
 
 
 def _parts(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the sizes of part and whole of each expectation, 0 where there is no value."""
+    """Return the magnitudes of part and whole of each expectation, 0 for NaN."""
     sizes = np.abs(values)
     sizes[np.isnan(sizes)] = 0.0
     return sizes[:, ::2], sizes[:, 1::2]

@@ -10,7 +10,7 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.event_conditions import EventConditions
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 
 def part_of_time(part: float, begin: float, end: float) -> float:
@@ -31,7 +31,7 @@ class Agenda:
 
     Parameters
     ----------
-    guards : Guards
+    guards : EventConditions
         Conditions of the model.
     p : array
         Parameter values.
@@ -90,13 +90,13 @@ class Agenda:
         on = self.on(float(self.times[0]), self.near)
         known = zip(self.guards.timed, on | held, strict=True)
         acts = [k for k, holds in known if holds and self.guards.guards[k].at_start]
-        if len(at.truth):
+        if len(at.mode):
             # Before the clock switches anything; what is but a rounding error away from its instant is there.
             value, rate = instants.rates(replace(at, constants=self.constants(at.constants, on)))
             slack = np.maximum(-rate, 0) * self.near
             before = np.where(self._inclusive(at), value <= slack, value < -slack)
             before &= ~np.array([self.guards.guards[k].at_start for k in self.guards.watched])
-            at = replace(at, truth=np.where(instants.is_switch, at.truth, before))
+            at = replace(at, mode=np.where(instants.is_switch, at.mode, before))
         return at, sorted({*acts, *self.fired(held, on)})
 
     def planned(self, at: Point, since: float) -> tuple[float, float] | None:
@@ -126,11 +126,11 @@ class Agenda:
 
         `time > due` is not true where time is `due`: a run that continues from there begins with that.
         """
-        if not len(at.truth):
+        if not len(at.mode):
             return at
         value, rate = instants.rates(at)
         later = ~self._inclusive(at) & ~instants.is_switch & (np.abs(value) <= -rate * 2 * self.reach(at.time))
-        return replace(at, truth=at.truth | later)
+        return replace(at, mode=at.mode | later)
 
     def _inclusive(self, at: Point) -> np.ndarray:
         """Which watched conditions hold where they are 0; where a planned comparison just changes, that tells."""

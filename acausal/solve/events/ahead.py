@@ -11,6 +11,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
 from acausal.solve.events.stride import Stride
+from acausal.solve.initialization.initial_modes import origins_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
 from acausal.solve.integrate.march import March
@@ -18,8 +19,7 @@ from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point
-from acausal.solve.start.start import places_text
+from acausal.solve.point import Point
 
 LOOKS = POLICY.looks
 
@@ -171,7 +171,7 @@ class Ahead:
         caution(
             f"from t = {time:.6g} s on, conditions change faster than they are checked, {2 * self.stride.density} times an "
             "interval; a change that reverts in between is missed. One of these:\n"
-            f"{places_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
+            f"{origins_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
             "More intervals mean more checks: simulate(..., intervals=...)."
         )
 

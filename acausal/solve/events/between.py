@@ -11,7 +11,7 @@ from acausal.solve.hermite import cubic
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.energy import between_rows
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 BETWEEN = POLICY.between
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from acausal.compiler import CompiledModel
-from acausal.solve.start.start import places_text
+from acausal.solve.initialization.initial_modes import origins_text
 
 
 class Chattering(Exception):
@@ -24,7 +24,7 @@ class Chattering(Exception):
     def __init__(self, compiled: CompiledModel, time: float, guards: list[int], what: str) -> None:
         super().__init__(
             f"at t = {time:.6g} s events repeat without end; these conditions {what}:\n"
-            f"{places_text(compiled, guards)}\n"
+            f"{origins_text(compiled, guards)}\n"
             "A body whose bounces die out, or a force that changes sign with the speed, causes this. Let a discrete "
             "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
             "without a jump (smooth=True)."

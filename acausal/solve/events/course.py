@@ -12,7 +12,9 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.causes import cause
+from acausal.solve.diagnosis.not_finite import cause
+from acausal.solve.diagnosis.singularity import undetermined
+from acausal.solve.diagnosis.undefined_conditions import undefined_conditions
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.between import work_between
@@ -22,14 +24,12 @@ from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.rests import ends_of_rests
+from acausal.solve.initialization.newton import NoConvergence
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point, Rows
-from acausal.solve.start.determined import undetermined
-from acausal.solve.start.newton import Lost
-from acausal.solve.undecided import undecided
+from acausal.solve.point import Point, Rows
 
 INSTANTS = POLICY.instants
 
@@ -90,7 +90,7 @@ class Course:
     def idle(self) -> list[str]:
         """Name statements that hold after the start, and whose condition nothing but they themselves makes false again."""
         at = self.first
-        held = [] if at is None else [k for k in self.guards.self_scheduling if at.truth[self.guards.watched.index(k)]]
+        held = [] if at is None else [k for k in self.guards.self_scheduling if at.mode[self.guards.watched.index(k)]]
         return [
             f"{self.guards.guards[k].origin}: the condition holds after the start, t = {self.times[0]:g} s, and acts where it "
             "becomes true: it never does, as nothing else moves its instant. Give that a start= after the start time, "
@@ -102,7 +102,7 @@ class Course:
         """Refuse conditions of time alone that have no value up to the next break."""
         time = at.time + POLICY.agenda.after * (end - at.time)
         open_ = self.agenda.undecided(time)
-        if open_ and (text := undecided(self.integrator.problem, replace(at, time=time), open_)):
+        if open_ and (text := undefined_conditions(self.integrator.problem, replace(at, time=time), open_)):
             raise Undecided(at.time, text)
 
     def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:
@@ -130,7 +130,7 @@ class Course:
         agenda = self.agenda
         now, after = agenda.on(at.time, agenda.near), agenda.on(at.time + 2 * agenda.near)
         fired = agenda.fired(now, held)
-        switched = bool((now != held).any() and len(at.truth))
+        switched = bool((now != held).any() and len(at.mode))
         if fired or switched or agenda.is_planned(at):
             at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.constants(at.constants, now))
         constants = agenda.constants(at.constants, after)
@@ -138,7 +138,7 @@ class Course:
             acts = ~self.instants.is_switch
             with suppress(Cycling, InitializationError, Failure):  # laws without values there do not matter
                 # What acts is kept from becoming true.
-                new = self.instants.settle(replace(at, truth=at.truth | acts), constants=constants, due=acts)[0]
+                new = self.instants.settle(replace(at, mode=at.mode | acts), constants=constants, due=acts)[0]
                 self.integrator.trace.put(-1, new)
 
     def _count(self, time: float, guards: list[int]) -> None:
@@ -245,7 +245,7 @@ class Course:
         except Cycling as cycling:
             raise Chattering(self.integrator.compiled, at.time, cycling.guards, "switch back and forth") from None
         except InitializationError as error:
-            why = cause(self.integrator.problem, error.at) if isinstance(error, Lost) else ""
+            why = cause(self.integrator.problem, error.at) if isinstance(error, NoConvergence) else ""
             raise Failure(at.time, f"the equations have no solution after an event: {why or error}") from None
         if changed and (text := undetermined(self.integrator.problem, new)):
             raise Failure(at.time, text)

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.points import Point
+from acausal.solve.initialization.assembly import close
+from acausal.solve.initialization.coordinate_partitioning import closing_scales
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.loop_states import sparing
-from acausal.solve.start.loops import close
 
 INSTANTS = POLICY.instants
 
@@ -38,7 +38,7 @@ def follow(problem: Problem, before: Point, after: Point, held: np.ndarray) -> t
     mismatch : float
         Largest residual, over its size.
     """
-    sizes = sparing(problem, before, held)
+    sizes = closing_scales(problem, before, held)
     way = after.x[held] - before.x[held]
     far = np.max(np.abs(way) / problem.nominal[held], initial=0.0)
     parts = int(np.clip(np.ceil(far / INSTANTS.part), 1, INSTANTS.parts))
@@ -46,10 +46,10 @@ def follow(problem: Problem, before: Point, after: Point, held: np.ndarray) -> t
     for part in np.arange(1, parts) / parts:
         x = at.x.copy()
         x[held] = before.x[held] + part * way
-        at, mismatch = close(problem, replace(at, x=x), held, positions=True, sizes=sizes)
+        at, mismatch = close(problem, replace(at, x=x), held, positions=True, scales=sizes)
         if not mismatch <= POLICY.loops.closed:
             at = before
             break
     x = at.x.copy()
     x[held] = after.x[held]
-    return close(problem, replace(after, x=x), held, sizes=sizes)
+    return close(problem, replace(after, x=x), held, scales=sizes)

@@ -18,7 +18,7 @@ from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import at_once
 from acausal.solve.integrate.stored import run_file
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 SAMPLING = POLICY.sampling
 
@@ -107,7 +107,7 @@ class Hybrid:
             return False
         run, p = self._run(at, way), np.append(integrator.problem.p, integrator.settings.nominal)
         how = {"step": self.ahead.step, "tolerance": way.tolerance, "damps": METHODS[way.method].damps}
-        run.begin(at.time, at.x, at.z, p, at.constants.vector, at.truth, **how)
+        run.begin(at.time, at.x, at.z, p, at.constants.vector, at.mode, **how)
         run.state.weak, self._worked = weak, np.zeros(2)
         return True
 

@@ -11,12 +11,12 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.events.follow import follow
 from acausal.solve.events.laws import Laws
+from acausal.solve.initialization.assembly import refuse_open_loops
+from acausal.solve.initialization.mode_search import MOST_TRIED, ModeSearch
+from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.ladder import Failure
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.assignments import MOST, Assignments
-from acausal.solve.start.loops import refuse_open_loops
-from acausal.solve.start.newton import algebraic
 
 INSTANTS = POLICY.instants
 HUGE = np.finfo(float).max / 8  # sums of some of it are finite
@@ -59,7 +59,7 @@ class Instants:
 
     def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Watched excesses and their time derivatives."""
-        value, rate = self.problem.watched(Rows.of(at))
+        value, rate = self.problem.indicators(Rows.of(at))
         return value[0], rate[0]
 
     def holds(self, at: Point, crossed: np.ndarray) -> np.ndarray:
@@ -71,7 +71,7 @@ class Instants:
         reach = np.where(self._clocked, rounding, INSTANTS.short * self.span)
         soon = crossed | (np.abs(value) <= np.abs(rate) * reach)
         near = moving & (np.abs(value) <= width) & soon
-        return np.where(near, rate < 0, np.where(value == 0, at.truth, value < 0))
+        return np.where(near, rate < 0, np.where(value == 0, at.mode, value < 0))
 
     def settle(
         self,
@@ -88,7 +88,7 @@ class Instants:
         at : Point
             Just before.
         fired : list of int
-            Guards whose condition becomes true by the clock.
+            EventConditions whose condition becomes true by the clock.
         constants : Constants
             Those that hold by the clock from now on.
         due : array of bool
@@ -106,16 +106,16 @@ class Instants:
             at = self._decided(at)
             constants = constants and replace(constants, discretes=at.constants.discretes)
         after = constants or at.constants
-        moved, tried = list[int](), Assignments(range(int(np.sum(self.is_switch))))
+        moved, tried = list[int](), ModeSearch(range(int(np.sum(self.is_switch))))
         none = np.zeros(len(self.watched), dtype=bool)
-        due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.truth
+        due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.mode
         before = self.rates(at)[0] if due.any() else none
-        for _ in range(MOST):
-            now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
-            flips = self.is_switch & (now != at.truth)
-            fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
+        for _ in range(MOST_TRIED):
+            now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.mode
+            flips = self.is_switch & (now != at.mode)
+            fires += self.watched[~self.is_switch & now & ~at.mode].tolist()
             if not flips.any() and not fires and after is at.constants:
-                return replace(at, truth=now), changed
+                return replace(at, mode=now), changed
             moved = self.watched[flips].tolist() + fires
             if flips.any():
                 now = self._wanted(tried, at, now, after.discretes)
@@ -130,28 +130,28 @@ class Instants:
                 due = due & (~forced | (np.abs(self.rates(at)[0] - before) <= self.width(at)))
         raise Cycling(moved)
 
-    def _wanted(self, tried: Assignments, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
+    def _wanted(self, tried: ModeSearch, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
         """Return what holds next: what follows from the values, and where that repeats itself, other switches."""
-        current, found = (np.concatenate([one[self.is_switch], at.x, discretes]) for one in (at.truth, now))
-        following = tried.then(current, found)
+        current, found = (np.concatenate([one[self.is_switch], at.x, discretes]) for one in (at.mode, now))
+        following = tried.next(current, found)
         if following is None:
             raise Cycling(self.watched[self.is_switch][tried.changing].tolist())
         if not tried.cycle:
             return now
-        wanted = at.truth.copy()
+        wanted = at.mode.copy()
         wanted[self.is_switch] = following[: len(tried.switches)] > 0
         return wanted
 
     def _after(self, at: Point, now: np.ndarray, fires: list[int], constants: Constants) -> Point:
         """Return the point after some conditions hold from now on and others act, with constants of the clock."""
-        changed = now != at.truth
+        changed = now != at.mode
         flips = self.is_switch & changed
         jumped = self._jump(at, fires, constants.switched(self.watched[flips], now[flips]))
         self._refuse_jumps(at, jumped.constants, self._leeway(at, changed))
         decided = self._decided(jumped, at.constants)
         if fires and (parted := self.laws.parted(decided)) is not decided:
             decided = self._decided(parted)
-        return replace(decided, truth=now)
+        return replace(decided, mode=now)
 
     def _decided(self, at: Point, before: Constants | None = None) -> Point:
         """Return the point with set-valued laws at rest decided, and the algebraic unknowns solved for."""

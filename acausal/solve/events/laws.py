@@ -12,9 +12,9 @@ from acausal.compiler.set_valued_laws import MODE, OFFSET, SHARE, SHARED, SLIP, 
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.events.shares import shares
-from acausal.solve.points import Point
+from acausal.solve.initialization.newton import algebraic
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.newton import algebraic
 
 LAWS = POLICY.laws
 NOISE = POLICY.newton.terms * np.finfo(float).eps

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.undefined_conditions import undefined_conditions
 from acausal.solve.events.between import between
 from acausal.solve.events.crossing import Sides, dips, levels, root, turns
 from acausal.solve.events.instant import Instants
@@ -16,8 +17,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import pace
-from acausal.solve.points import Point, Rows
-from acausal.solve.undecided import undecided
+from acausal.solve.point import Point, Rows
 
 LOCATE = POLICY.locate
 LOOKS = POLICY.looks
@@ -133,7 +133,9 @@ class Locator:
         lost = np.isnan(samples.value)
         rows = np.flatnonzero(lost.any(axis=1))
         for k in rows[[0, -1]] if rows.size else ():
-            if text := undecided(self.integrator.problem, samples[k].at, self.instants.watched[lost[k]].tolist()):
+            if text := undefined_conditions(
+                self.integrator.problem, samples[k].at, self.instants.watched[lost[k]].tolist()
+            ):
                 return int(rows[0] if k == rows[0] else k), text
         return len(samples), ""
 
@@ -165,14 +167,14 @@ class Locator:
         return self._alone(at, here)[0]
 
     def _alone(self, at: Point, here: Point) -> Samples:
-        return self._samples(replace(here, truth=at.truth), Rows.of(here))
+        return self._samples(replace(here, mode=at.mode), Rows.of(here))
 
     def _samples(self, at: Point, rows: Rows) -> Samples:
         """Rows of the segment of a point, consistent as far as the watched conditions need it, on the side of that point."""
         problem = self.integrator.problem
         rows, _ = self.integrator.consistent(rows, self.instants.guards.needs)
-        value, rate = problem.watched(rows)
-        side = np.where(at.truth, -1.0, 1.0)
+        value, rate = problem.indicators(rows)
+        side = np.where(at.mode, -1.0, 1.0)
         return Samples(at, rows, value * side, rate * side)
 
     def _seen_between(self, samples: Samples, level: np.ndarray, turning: list[int], end: int) -> np.ndarray:

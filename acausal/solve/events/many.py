@@ -7,7 +7,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import caution
 from acausal.policy import POLICY
-from acausal.solve.start.start import places_text
+from acausal.solve.initialization.initial_modes import origins_text
 
 INSTANTS = POLICY.instants
 
@@ -31,7 +31,7 @@ def warn_of_many(compiled: CompiledModel, time: float, times: np.ndarray, guards
         pace = "without end" if part <= 0 else f"about {float(f'{INSTANTS.many / part:.2g}'):,.0f} in the whole run"
         caution(
             f"{INSTANTS.many} events up to t = {time:.6g} s, {pace} if it goes on like that, and the integration begins anew "
-            f"after each: it will take long. What changes so often:\n{places_text(compiled, guards)}\n"
+            f"after each: it will take long. What changes so often:\n{origins_text(compiled, guards)}\n"
             "If only the mean effect matters, use that instead of the switching; else simulate a shorter time, stop_time=.... "
             "Ctrl-C keeps what was computed, in the `result` of the KeyboardInterrupt."
         )

@@ -11,7 +11,7 @@ from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.methods import METHODS
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 RESTS = POLICY.rests

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.solve.events.crossing import Sides
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class Samples:
 
     def __getitem__(self, k: int) -> Sample:
         rows, of = self.rows, self.of
-        at = Point(float(rows.times[k]), rows.x[k], rows.z[k], of.constants, of.truth)
+        at = Point(float(rows.times[k]), rows.x[k], rows.z[k], of.constants, of.mode)
         return Sample(at, self.value[k], self.rate[k])
 
     def before(self, n: int) -> Samples:

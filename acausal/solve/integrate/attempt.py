@@ -11,6 +11,16 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.memo import memo_seconds
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.initialization.coordinate_partitioning import (
+    choose_projection,
+    least_cosine,
+    partitioned,
+    projection_cosine,
+    projection_is_valid,
+)
+from acausal.solve.initialization.independent_constraints import reselected
+from acausal.solve.initialization.minimum_norm_reactions import minimum_norm_reactions
+from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import refined
 from acausal.solve.integrate.flat import looked_at
@@ -23,12 +33,8 @@ from acausal.solve.integrate.stateless import everywhere
 from acausal.solve.integrate.trace import Leg, Trace
 from acausal.solve.integrate.unfit import Reach, unfit_time
 from acausal.solve.looks import spread
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import refitted
-from acausal.solve.start.loop_states import choose_projection, chosen, least_cosine, suits, worn
-from acausal.solve.start.newton import algebraic
-from acausal.solve.start.shares import shared
 
 
 class Integrator:
@@ -126,23 +132,23 @@ class Integrator:
 
     def _refitted(self, at: Point) -> Point:
         """Return the point with other constraints kept, where those that are do not suit it."""
-        constants = refitted(self.problem, at)
+        constants = reselected(self.problem, at)
         if np.array_equal(constants.closures, at.constants.closures):
             return at
         self.trace.choices += 1
         there = replace(at, constants=constants)
-        there = replace(there, constants=shared(self.problem, there))
+        there = replace(there, constants=minimum_norm_reactions(self.problem, there))
         there = replace(there, constants=choose_projection(self.problem, there, spare=False, moves=True))
         return algebraic(self.problem, self.problem.completed(there))
 
     def _suited(self, at: Point, moves: bool) -> Point:
         """Return the point with a projection that suits it: its own, if that moves along."""
-        fits = (at.constants is self._fresh and at.time == self.span[0]) or suits(self.problem, at)
+        fits = (at.constants is self._fresh and at.time == self.span[0]) or projection_is_valid(self.problem, at)
         if fits and moves:
             return at
         self.trace.choices += 1
         return replace(
-            at, constants=chosen(self.problem, at) if fits else choose_projection(self.problem, at, moves=moves)
+            at, constants=partitioned(self.problem, at) if fits else choose_projection(self.problem, at, moves=moves)
         )
 
     def is_worn(self, rows: Rows, constants: Constants) -> bool:
@@ -151,7 +157,7 @@ class Integrator:
             return False
         looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
         some = rows[spread(len(rows), looks)]
-        return bool(np.any(worn(self.problem, some, constants) < least_cosine(self.problem)))
+        return bool(np.any(projection_cosine(self.problem, some, constants) < least_cosine(self.problem)))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Leg | Refusal:
         """Integrate in the current way, carefully where that fails; without works, and through jumps."""

@@ -11,7 +11,7 @@ import numpy as np
 from acausal.core import Curve
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 
 BRANCHES = POLICY.branches
 

@@ -14,7 +14,7 @@ from acausal.solve.integrate.ladder import Kind, Refusal, read
 from acausal.solve.integrate.one_step import first_step, sizes
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import unfit_time
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 
 CALLS = POLICY.calls
 

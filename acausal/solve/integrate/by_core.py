@@ -10,6 +10,7 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.core_equations import core_equations
 from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
+from acausal.solve.initialization.independent_constraints import IndependentConstraints
 from acausal.solve.integrate.branches import first_jump
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
@@ -19,7 +20,6 @@ from acausal.solve.integrate.one_step import at_once, error_test
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held
 
 REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
 
@@ -142,7 +142,7 @@ class ByCore(Integration):
         there = self.request.problem.projected(replace(self.request.at, time=time, x=x, z=z))
         self._rodas.move(there.x, there.z)
 
-    def _held(self) -> Held:
+    def _held(self) -> IndependentConstraints:
         """The constraints of loops at the last steps."""
         problem, times, y, constants = self._last_steps
         return looked_at(problem, times, y[:, : problem.nx], constants)

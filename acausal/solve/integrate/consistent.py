@@ -17,11 +17,11 @@ from acausal.compiler.memo import memoized
 from acausal.core import Settler, Square, library
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.initialization.newton import algebraic, terms
 from acausal.solve.looks import spread
-from acausal.solve.parts import part_of
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.newton import algebraic, terms
+from acausal.solve.sparse_blocks import block_of
 
 CONSISTENT = POLICY.consistent
 CANCELS = 16 * np.finfo(float).eps
@@ -75,9 +75,9 @@ def _needed(compiled: CompiledModel, wanted: frozenset[int] | None) -> _Needed:
 @memoized
 def _solved(compiled: CompiledModel, key: tuple[int, ...]) -> _Needed:
     unknowns, equations = compiled.dependence.needed(key)
-    part = part_of(compiled.pattern, compiled.nx + equations, compiled.nx + unknowns)
-    columns, first = np.unique(part.places[1], return_index=True)
-    return _Needed(unknowns, equations, key, part.rows[part.places[0]], part.entries, first, columns)
+    block = block_of(compiled.pattern, compiled.nx + equations, compiled.nx + unknowns)
+    columns, first = np.unique(block.places[1], return_index=True)
+    return _Needed(unknowns, equations, key, block.rows[block.places[0]], block.entries, first, columns)
 
 
 class Consistent:

@@ -17,7 +17,7 @@ from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.looks import GOLDEN, spread
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 
 ENERGY = POLICY.energy
 

@@ -7,28 +7,28 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
+from acausal.solve.initialization.independent_constraints import IndependentConstraints
 from acausal.solve.looks import spread
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held
 
 LOOPS = POLICY.loops
 
 
-def looked_at(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> Held:
+def looked_at(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> IndependentConstraints:
     """Return the constraints at successive steps, or at some of them: see `looks`."""
     some = looks(problem, len(times))
-    return Held(problem, times[some], x[some], constants)
+    return IndependentConstraints(problem, times[some], x[some], constants)
 
 
-def passes_flat(held: Held) -> bool:
+def passes_flat(held: IndependentConstraints) -> bool:
     """Return whether loops may have passed a position in which their constraints are not independent, between steps.
 
     There the smallest singular value of their Jacobian is 0. It falls linearly on the way, so it may have been 0 between two
     steps where it is less at one of them than it changes from one to the other. Another method goes on then, so that a false
     alarm costs time alone; `flat_time`, and `flat.c` in an exported model, look for the least value within the step.
     """
-    return bool(_alarms(held.sharpness).any())
+    return bool(_alarms(held.smallest_singular_values).any())
 
 
 def flat_time(problem: Problem, times: np.ndarray, y: np.ndarray, constants: Constants) -> float | None:
@@ -48,7 +48,7 @@ def flat_time(problem: Problem, times: np.ndarray, y: np.ndarray, constants: Con
     """
     some = looks(problem, len(times))
     times, (x, z) = times[some], np.split(y[some], [problem.nx], axis=1)
-    alarms = np.pad(_alarms(Held(problem, times, x, constants).sharpness), 1)
+    alarms = np.pad(_alarms(IndependentConstraints(problem, times, x, constants).smallest_singular_values), 1)
     for k in np.flatnonzero(alarms[:-2] | alarms[1:-1] | alarms[2:]).tolist():
         two = slice(k, k + 2)
         rates = problem.each(problem.compiled.rates, Rows.within(times[two], x[two], z[two], constants.vector))
@@ -56,7 +56,10 @@ def flat_time(problem: Problem, times: np.ndarray, y: np.ndarray, constants: Con
         for _ in range(LOOPS.zooms):
             parts = np.linspace(low, high, LOOPS.parts + 1)
             inside = cubic(parts[:, None], h, x[two], rates)[0]
-            least = np.min(Held(problem, times[k] + parts * h, inside, constants).sharpness, axis=0)
+            least = np.min(
+                IndependentConstraints(problem, times[k] + parts * h, inside, constants).smallest_singular_values,
+                axis=0,
+            )
             place = int(np.argmin(least))
             if least[place] <= LOOPS.flat:
                 return float(times[k] + parts[place] * h)

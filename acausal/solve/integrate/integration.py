@@ -11,7 +11,7 @@ from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.ladder import Refusal, Way
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
 

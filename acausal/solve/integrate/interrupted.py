@@ -9,7 +9,7 @@ import numpy as np
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.integration import Integration
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 
 def reached(consistent: Consistent, integration: Integration) -> Leg | None:
@@ -41,7 +41,7 @@ def _before_event(consistent: Consistent, at: Point, found: Leg) -> int:
     if not guards.watched:
         return len(found.rows)
     rows, _ = consistent(found.since(at), guards.needs)
-    signs = np.sign(consistent.problem.watched(rows)[0])
+    signs = np.sign(consistent.problem.indicators(rows)[0])
     # Right after an event a condition is at its threshold.
     first = np.where(signs[0] == 0, signs[1], signs[0])
     return _leading((signs[1:] == first).all(axis=1))

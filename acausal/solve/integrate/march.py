@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.policy import POLICY
+from acausal.solve.initialization.independent_constraints import IndependentConstraints
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.by_core import ByCore
 from acausal.solve.integrate.energy import along
@@ -16,8 +17,7 @@ from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import fit_rows
 from acausal.solve.looks import uneven
-from acausal.solve.points import Point, Rows
-from acausal.solve.start.kept import Held
+from acausal.solve.point import Point, Rows
 
 LOOKS = POLICY.looks
 
@@ -99,7 +99,7 @@ class March:
         if own.settings.energy and not own.compiled.powers.is_zero():
             energy = along(own.consistent, self.rows, times)
         constants, rows = self._integration.request.at.constants, self.rows(times)
-        n = fit_rows(Held(own.problem, times, rows.x, constants)) if self.unfit else len(rows) - 1
+        n = fit_rows(IndependentConstraints(own.problem, times, rows.x, constants)) if self.unfit else len(rows) - 1
         return Leg(rows[1 : n + 1], energy[1 : n + 1], constants, len(ends) - 1, self.rows) if n else None
 
     def rows(self, times: np.ndarray) -> Rows:

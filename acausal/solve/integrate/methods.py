@@ -12,7 +12,7 @@ from acausal.policy import POLICY
 from acausal.solve.integrate.by_casadi import by_idas, by_rosenbrock
 from acausal.solve.integrate.by_core import ByCore
 from acausal.solve.integrate.integration import Integration, Request
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 CALLS = POLICY.calls

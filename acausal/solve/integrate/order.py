@@ -15,9 +15,9 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
-from acausal.solve.points import Point
+from acausal.solve.initialization.tangent_space import of_states, tangent
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.tangent import of_states, tangent
 
 ORDER = POLICY.order
 
@@ -63,8 +63,8 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     if not np.all(np.isfinite(local.entries[local.pattern.indices < nx + nz])):
         return np.zeros(0, complex)
     if nx <= (ORDER.looped if problem.compiled.constraints.size else ORDER.dense):
-        N, chosen = tangent(problem, at)
-        return np.linalg.eigvals((of_states(problem.compiled).matrix(local.entries) @ N)[chosen])
+        N, independent = tangent(problem, at)
+        return np.linalg.eigvals((of_states(problem.compiled).matrix(local.entries) @ N)[independent])
     J = local.jacobian[: nx + nz]
     inner = scipy.sparse.linalg.splu(J[nx:, nx:].tocsc(), permc_spec="NATURAL").solve if nz else None
     to_z, from_z, own = J[nx:, :nx], J[:nx, nx:], J[:nx, :nx]

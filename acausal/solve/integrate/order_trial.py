@@ -15,7 +15,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 ORDER = POLICY.order
 

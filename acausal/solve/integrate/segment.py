@@ -11,7 +11,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, accepted, next_ways
 from acausal.solve.integrate.order_trial import settle
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 RESCUE = POLICY.rescue
 
@@ -122,7 +122,7 @@ def passage(
     refusal : Refusal, optional
         That of a careful call over the same interval, which need not be repeated.
     """
-    # Loops that get stuck beside a singular position do so for ever.
+    # Loops that get stuck beside a singular configuration do so for ever.
     most = RESCUE.long if integrator.loops else RESCUE.hopeless // min(outputs, RESCUE.hopeless // RESCUE.long)
     way = replace(integrator.way, careful=True, max_steps=most)
     found = _stride(integrator, at, times, way, RESCUE.halvings, refusal)

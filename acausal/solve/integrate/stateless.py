@@ -8,14 +8,14 @@ import numpy as np
 
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.diagnosis.singularity import undetermined
+from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import between_rows
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal
 from acausal.solve.integrate.trace import Leg
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.determined import undetermined
-from acausal.solve.start.newton import algebraic
 
 
 def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: float | None) -> Leg | Refusal:

@@ -11,13 +11,13 @@ from acausal.compiler.memo import memoized
 from acausal.compiler.runtime import NOTHING, Runtime
 from acausal.core import StoredModel
 from acausal.core.model_file import floats, framed, ints
+from acausal.solve.initialization.assembly import levels
+from acausal.solve.initialization.coordinate_partitioning import closing_scales
+from acausal.solve.initialization.independent_constraints import closure_of
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.integrate.settings import Settings
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import closure_of
-from acausal.solve.start.loop_states import sparing
-from acausal.solve.start.loops import levels
 
 VERSION = 6
 
@@ -100,12 +100,12 @@ def run_file(problem: Problem, settings: Settings, at: Point, tolerance: float) 
         rate=are_rates(problem),
         names=compiled.states,
     )
-    follows = sparing(problem, at, free) if compiled.constraints.size else problem.nominal[: compiled.nx]
+    follows = closing_scales(problem, at, free) if compiled.constraints.size else problem.nominal[: compiled.nx]
     sections = {
         **_sections(compiled, settings.energy),
         **start.start,
         "damped": floats(sizes(problem, nominal, settings.spectrum.vibration)),
-        "nominal": floats([settings.span, tolerance, *nominal, *problem.reaches, *follows]),
+        "nominal": floats([settings.span, tolerance, *nominal, *problem.loop_scales, *follows]),
         "natural": floats(nominal[compiled.nx :]),
         "token": b"run\0",
     }

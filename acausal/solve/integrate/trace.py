@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 
 class Piece(NamedTuple):
@@ -133,7 +133,7 @@ class Leg:
     def end(self, at: Point) -> Point:
         """Return the last row as a point; `at` tells which conditions hold."""
         rows = self.rows
-        return Point(float(rows.times[-1]), rows.x[-1], rows.z[-1], self.constants, at.truth)
+        return Point(float(rows.times[-1]), rows.x[-1], rows.z[-1], self.constants, at.mode)
 
     def part(self, first: int, last: int) -> Leg:
         """Return some of the rows, as if the call had begun at its start nevertheless."""

@@ -5,43 +5,43 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.points import Point
+from acausal.solve.initialization.independent_constraints import IndependentConstraints
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held
 
 LOOPS = POLICY.loops
 
 
-def unfit_time(held: Held, begin: float) -> float | None:
+def unfit_time(held: IndependentConstraints, begin: float) -> float | None:
     """Return a time in s at which other constraints are to be kept, None if those that are stay fit.
 
     It is that of the last point at which they are fit if they are no longer fairly so there, else between that and the next one.
 
     Parameters
     ----------
-    held : Held
+    held : IndependentConstraints
         The constraints at successive steps or outputs.
     begin : float
         Time in s at which the call began.
     """
     if held.constants.all_count or (after := _first_unfit(held)) is None:
         return None
-    before, (times, found) = after - 1, (held.times, held.fitness)
+    before, (times, found) = after - 1, (held.times, held.conditioning)
     if times[before] > begin and found[before] < LOOPS.fairly:
         return float(times[before])
     middle = float((times[before] + times[after]) / 2)
     return middle if middle > begin else None
 
 
-def fit_rows(held: Held) -> int:
+def fit_rows(held: IndependentConstraints) -> int:
     """Return the number of points before the first in which the constraints that are kept are unfit, after the first of all."""
     unfit = _first_unfit(held)
     return len(held.times) - 1 if unfit is None else unfit - 1
 
 
-def _first_unfit(held: Held) -> int | None:
+def _first_unfit(held: IndependentConstraints) -> int | None:
     """Place of the first point in which they are unfit, or where none is quite fit at the first one much less so."""
-    found = held.fitness
+    found = held.conditioning
     unfit = np.flatnonzero(found[1:] < LOOPS.unfit * (1.0 if found[0] >= LOOPS.unfit else found[0]))
     return 1 + int(unfit[0]) if unfit.size else None
 
@@ -99,7 +99,7 @@ def _first_length(problem: Problem, at: Point) -> float:
 
     Without end where what is dropped is 0 beside what is kept, as out of the plane of a planar loop.
     """
-    if Held.at(problem, at).fitness[0] > 1 - POLICY.ranks.nearly:
+    if IndependentConstraints.at(problem, at).conditioning[0] > 1 - POLICY.ranks.nearly:
         return np.inf
     states = problem.compiled.constraints.states
     fastest = np.max(np.abs(problem.values(at)[states]) / problem.nominal[states], initial=0.0)

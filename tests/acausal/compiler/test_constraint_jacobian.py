@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from acausal.solve.start.newton import algebraic
+from acausal.solve.initialization.newton import algebraic
 from tests.acausal.solve.circle import compiled, plane, point, problem
 
 # One constraint at two levels: x^2 + y^2 - 1, and its time derivative.

@@ -12,10 +12,10 @@ import numpy as np
 from acausal.core import End, Rodas, StoredModel
 from acausal.core.build.compiling import CORE, FLAGS
 from acausal.policy import POLICY
+from acausal.solve.initialization.coordinate_partitioning import choose_projection
+from acausal.solve.initialization.initial_modes import leave_singular_start, start
 from acausal.solve.integrate.stored import stored
 from acausal.solve.problem import Problem
-from acausal.solve.start.loop_states import choose_projection
-from acausal.solve.start.start import go_on, start
 from models import SCENES
 from tests.shared import CONTRACT, compiled
 
@@ -30,7 +30,7 @@ def scene(name: str) -> StoredModel:
     """Return a scene as it starts; projections of its closed loops move."""
     model, span = compiled(SCENES[name]), SPANS[name]
     problem = Problem(model, model.parameter_values(None), POLICY.loops.feedback / span)
-    at = go_on(problem, start(problem, 0.0, span / 20, "fixed"))  # before anything changes by the clock
+    at = leave_singular_start(problem, start(problem, 0.0, span / 20, "fixed"))  # before anything changes by the clock
     moves = bool(model.constraints.size)
     if moves:
         at = problem.projected(at)

@@ -7,10 +7,10 @@ import pytest
 
 import acausal as ac
 from acausal.compiler.core_equations import core_motion
+from acausal.solve.initialization.initial_modes import start
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.points import Rows
+from acausal.solve.point import Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.start import start
 from tests.benchmarks.events.engine import EngineV6
 from tests.benchmarks.events.scenes import Ball, Drive, SampledPendulum, StickSlip
 
@@ -33,7 +33,7 @@ def some(name: str) -> tuple[Problem, Rows]:
 @pytest.mark.parametrize("name", SCENES)
 def test_the_core_tells_what_casadi_tells(name):
     problem, rows = some(name)
-    value, rate = problem.watched(rows)
+    value, rate = problem.indicators(rows)
     expected = problem.each(problem.compiled.guards.along, rows)
     n = len(problem.compiled.guards.watched)
     assert n
@@ -51,8 +51,8 @@ def test_rates_are_those_of_the_motion(name):
     ends = []
     for sign in (-1, 1):
         moved = Rows(rows.times + sign * h, rows.x + sign * h * rates, rows.z, rows.constants)
-        ends.append(problem.watched(solve(moved, problem.compiled.guards.needs)[0])[0])
-    rate = problem.watched(rows)[1]
+        ends.append(problem.indicators(solve(moved, problem.compiled.guards.needs)[0])[0])
+    rate = problem.indicators(rows)[1]
     np.testing.assert_allclose((ends[1] - ends[0]) / (2 * h), rate, rtol=1e-5, atol=1e-6 * np.max(np.abs(rate)))
 
 

@@ -13,7 +13,7 @@ from acausal import Model, Scalar, chain, connect, fixed, guess, output
 from components import Body, Fixed, FixedTranslation, FlexibleBeam, Prismatic, Revolute, SpringDamperParallel, World
 from components.rotational import Inertia, Speed
 from models import SimplePendulum
-from tests.acausal.solve.start.test_rotation import Blade, DrivenFlyball, MotorAndFan, OnAShaft, OnASpring
+from tests.acausal.solve.initialization import test_steady_rotation as tsr
 
 
 def told(model: Model, **how: str) -> list[str]:
@@ -25,7 +25,7 @@ def told(model: Model, **how: str) -> list[str]:
 
 def test_a_straight_blade_that_turns_is_no_equilibrium():
     """The hub's angle turns, which is no reason; stretch of the blade is."""
-    (text,) = told(Blade(), initial="guesses")
+    (text,) = told(tsr.Blade(), initial="guesses")
     assert "not an equilibrium" in text
     assert 'linearize(..., initial="steady"), or initial="static" of beam.' in text
     assert "der(beam.qd[21]) = " in text
@@ -38,7 +38,9 @@ def test_rates_are_named_by_size():
     assert "static" not in text
 
 
-@pytest.mark.parametrize("model", [Blade(), DrivenFlyball(), MotorAndFan(), OnAShaft(), OnASpring()])
+@pytest.mark.parametrize(
+    "model", [tsr.Blade(), tsr.DrivenFlyball(), tsr.MotorAndFan(), tsr.OnAShaft(), tsr.OnASpring()]
+)
 def test_equilibria_are_silent(model):
     assert told(model, initial="steady") == []
 
@@ -48,10 +50,10 @@ def test_steady_rotation_by_given_values_is_silent():
     bent = FlexibleBeam(
         length=10.0, E=7e10, rho=2700.0, A=0.04, J=3.3e-5, elements=4, geometric_stiffness=True, axial="none"
     )
-    assert told(Blade(beam=bent), initial="guesses") == []
+    assert told(tsr.Blade(beam=bent), initial="guesses") == []
     speed = (-0.2 + sqrt(0.2**2 + 4 * 0.05 * 2)) / (2 * 0.05)
-    assert told(MotorAndFan(rotor=Inertia(J=0.3, w=fixed(speed), phi=fixed(0)))) == []
-    (text,) = told(MotorAndFan(rotor=Inertia(J=0.3, w=fixed(0.9 * speed), phi=fixed(0))))
+    assert told(tsr.MotorAndFan(rotor=Inertia(J=0.3, w=fixed(speed), phi=fixed(0)))) == []
+    (text,) = told(tsr.MotorAndFan(rotor=Inertia(J=0.3, w=fixed(0.9 * speed), phi=fixed(0))))
     assert "der(rotor.w)" in text
 
 
@@ -81,7 +83,7 @@ def test_two_blades_on_a_pylon_are_a_periodic_system():
     assert "periodic: A changes as hub.phi turns" in text
 
 
-class Shown(OnASpring):
+class Shown(tsr.OnASpring):
     x: Scalar = output("place of the ball", unit="m")
 
     def equations(self):

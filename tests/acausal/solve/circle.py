@@ -8,7 +8,7 @@ import numpy as np
 
 import acausal as ac
 from acausal import Model, Scalar, der, parameter, variable
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
 NAMES = ("x", "y", "u", "v")

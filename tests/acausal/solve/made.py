@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler.linearization import PointLinearization
-from acausal.solve.points import Point
+from acausal.solve.point import Point
 
 Function = Callable[[np.ndarray], np.ndarray]
 

@@ -76,7 +76,7 @@ def test_what_a_rod_does_not_take_up() -> None:
     assert "miss each other by 0.004 m" in text
     assert "rod.q" not in text
     assert text.endswith(
-        'Or leave their shape at the start to the loops: `rod`: FEBody(initial="free"), with simulate(..., initial="guesses").'
+        'Or let the loops determine their shape: `rod`: FEBody(initial="free"), with simulate(..., initial="guesses").'
     )
     found = ac.simulate(SliderCrank(angle=2e-2, start="free"), stop_time=1e-5, initial="guesses")
     assert abs(found["rod.frame_b.r_0"][0, 2]) < 1e-9

@@ -180,7 +180,7 @@ def test_modes_that_fit_no_start():
             yield der(self.x) == self.y
             yield self.y == cos(self.x) * piecewise((1, self.y < 0.5), 0)
 
-    with pytest.raises(InitializationError, match=r"no switches fit|contradicts its own"):
+    with pytest.raises(InitializationError, match=r"no consistent positions|contradicts its own"):
         ac.simulate(Contradiction(), stop_time=1)
 
 

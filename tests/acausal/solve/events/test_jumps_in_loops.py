@@ -153,7 +153,7 @@ def test_a_jump_out_of_reach_is_named() -> None:
             yield when(time > AT, reinit(self.j3.phi, 1.0))
 
     with pytest.raises(
-        ac.SimulationError, match=r"does not close with `j3\.phi` = 1, where Far, .*jump:[\s\S]*can reach"
+        ac.SimulationError, match=r"does not close with `j3\.phi` = 1, to which Far, .* sets it:[\s\S]*can reach"
     ) as told:
         ac.simulate(Far(), stop_time=STOP)
     assert "fixed" not in str(told.value)

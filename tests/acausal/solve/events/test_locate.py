@@ -11,7 +11,7 @@ from acausal.compiler.constants import Layout
 from acausal.solve.events.locate import Locator, TooCoarse
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import uneven
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 NOTHING = Layout(0, 0, 0, 0, 0, 0).begin(np.zeros(0), 1.0)
 WIDTH = 1e-9
@@ -30,7 +30,8 @@ class Motion:
 
     def __init__(self, *functions, span=10.0) -> None:
         self.functions, self.span, self.trials, self.looks = functions, span, 0, 0
-        self.problem, self.compiled, self.tolerance = SimpleNamespace(watched=self.watched), SimpleNamespace(nx=1), 1e-8
+        self.problem, self.compiled = SimpleNamespace(indicators=self.indicators), SimpleNamespace(nx=1)
+        self.tolerance = 1e-8
         self.settings = SimpleNamespace(nominal=np.ones(1))
         self.consistent = self
 
@@ -44,7 +45,7 @@ class Motion:
         self.trials += 1
         return leg(times[1:])
 
-    def watched(self, rows):
+    def indicators(self, rows):
         self.looks += 1
         found = [f(rows.x[:, 0]) for f in self.functions]
         return tuple(np.column_stack(column) for column in zip(*found, strict=True))
@@ -61,10 +62,10 @@ def leg(times) -> Leg:
     return Leg(Rows.within(times, times[:, None], np.zeros((n, 0)), NOTHING.vector), np.zeros((n, 2)), NOTHING, n)
 
 
-def first(motion: Motion, times, truth=None, **how):
+def first(motion: Motion, times, mode=None, **how):
     """Look along rows at some times, the first of which is the start."""
-    truth = np.zeros(len(motion.functions), dtype=bool) if truth is None else np.array(truth)
-    at = Point(float(times[0]), np.array([times[0]], dtype=float), np.zeros(0), NOTHING, truth)
+    mode = np.zeros(len(motion.functions), dtype=bool) if mode is None else np.array(mode)
+    at = Point(float(times[0]), np.array([times[0]], dtype=float), np.zeros(0), NOTHING, mode)
     return motion.locator().first(at, leg(times[1:]), **how)
 
 
@@ -110,7 +111,7 @@ def test_few_looks_narrow_it_down(functions):
 def test_the_side_counts_and_not_the_sign():
     """A condition that holds is left when its excess becomes positive."""
     motion = Motion(lambda x: (x - 1.3, np.ones_like(x)))
-    assert first(motion, GRID, truth=[True]).after.time == pytest.approx(1.3, abs=1e-11)
+    assert first(motion, GRID, mode=[True]).after.time == pytest.approx(1.3, abs=1e-11)
 
 
 @pytest.mark.parametrize("depth", [0.05, 1e-4, 1e-6])

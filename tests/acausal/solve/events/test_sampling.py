@@ -334,13 +334,13 @@ def test_sampled_system_in_closed_form() -> None:
 
 
 def test_what_has_no_value_at_an_instant_is_told_as_by_the_search(monkeypatch: Any) -> None:
-    class Lost(Plant):
+    class NoConvergence(Plant):
         def sampling(self):
             wrong = ac.sqrt(0.355 - time)
             yield when(time >= self.due, reinit(self.u, wrong), reinit(self.due, self.due + self.period), at_start=True)
 
     with pytest.raises(ac.SimulationError, match=r"reinit\(\) gives no finite number") as caught:
-        ac.simulate(Lost())
+        ac.simulate(NoConvergence())
     result: Any = caught.value.result
     assert result.time[-1] == pytest.approx(0.35, abs=0.02)
 

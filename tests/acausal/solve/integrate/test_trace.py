@@ -7,7 +7,7 @@ import pytest
 
 from acausal.compiler.constants import Constants, Layout
 from acausal.solve.integrate.trace import Leg, Trace
-from acausal.solve.points import Point, Rows
+from acausal.solve.point import Point, Rows
 
 
 def constants(*switches: float) -> Constants:
@@ -109,4 +109,4 @@ def test_parts_of_a_stretch():
     assert whole.every(3).rows.x[:, 1].tolist() == [40, 70]
     truth = np.array([True])
     end = whole.end(Point(0.0, np.zeros(2), np.zeros(1), constants(0.0), truth))
-    assert (end.time, end.x.tolist(), end.z.tolist(), end.truth) == (7.0, [7, 70], [700], truth)
+    assert (end.time, end.x.tolist(), end.z.tolist(), end.mode) == (7.0, [7, 70], [700], truth)

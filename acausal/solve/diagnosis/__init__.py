@@ -1,0 +1,1 @@
+"""Diagnosis of failures: equations and values that cause them, and remedies."""
