@@ -14,23 +14,16 @@ from acausal import (
     effect,
     parameter,
     sqrt,
-    structural,
     tanh,
 )
-from components.frame import TwoFrames
+from components.driven import Driven
 from components.orientation import unit_vector
 from components.world import require_direction
 
 
-class DrivenJoint(TwoFrames):
+class DrivenJoint(Driven):
     """Base of joints along or about an axis n; a subclass declares n, d, compliance and its own motion."""
 
-    use_axis_flange: bool = structural(
-        "whether the joint has a drive",
-        default=False,
-        choices=(True, False),
-        doc="True gives the joint a drive `axis` and the housing of the drive, `support`.",
-    )
     friction: Any = effect(
         "friction in the joint",
         default=True,

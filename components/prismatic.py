@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, part, port, quantity, structural, variable
+from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, part, quantity, structural, variable
+from components.driven import DrivenByRod
 from components.driven_joint import DrivenJoint
 from components.frame import move
 from components.joint_friction import PrismaticFriction
 from components.orientation import null_rotation, resolve1, unit_vector
-from components.translational.flange import TranslationalFlange
 
 
-class Prismatic(DrivenJoint):
+class Prismatic(DrivenByRod, DrivenJoint):
     """Prismatic joint: frame_b slides relative to frame_a along the axis n."""
 
     n: Any = structural(
@@ -35,16 +35,6 @@ class Prismatic(DrivenJoint):
     v: Scalar = variable("der(s)", unit="m/s", select=PREFER)
     a: Scalar = variable("der(v)", unit="m/s2")
     f: Scalar = variable("drive force along n", unit="N")
-
-    @port
-    def axis(self) -> TranslationalFlange | None:
-        """Drive rod."""
-        return TranslationalFlange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> TranslationalFlange | None:
-        """Housing of the drive."""
-        return TranslationalFlange() if self.use_axis_flange else None
 
     @part
     def stiction(self) -> PrismaticFriction | None:

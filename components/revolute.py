@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from acausal import PREFER, Scalar, der, dot, geometry, parameter, part, port, structural, variable
+from acausal import PREFER, Scalar, der, dot, geometry, parameter, part, structural, variable
+from components.driven import DrivenByShaft
 from components.driven_joint import DrivenJoint
-from components.flange import Flange
 from components.frame import move, pose
 from components.joint_friction import RevoluteFriction
 from components.orientation import planar_rotation, resolve1, unit_vector
 
 
-class Revolute(DrivenJoint):
+class Revolute(DrivenByShaft, DrivenJoint):
     """Revolute joint: frame_b turns relative to frame_a about the axis n."""
 
     n: Any = structural(
@@ -43,16 +43,6 @@ class Revolute(DrivenJoint):
     w: Scalar = variable("der(phi)", unit="rad/s", select=PREFER)
     a: Scalar = variable("der(w)", unit="rad/s2")
     tau: Scalar = variable("drive torque about n", unit="N.m")
-
-    @port
-    def axis(self) -> Flange | None:
-        """Drive shaft."""
-        return Flange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> Flange | None:
-        """Housing of the drive."""
-        return Flange() if self.use_axis_flange else None
 
     @part
     def stiction(self) -> RevoluteFriction | None:

@@ -7,17 +7,17 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError, Scalar, chain, connect, guess, parameter, part, port, require, structural
+from components.driven import DrivenByRod
 from components.fixed_translation import FixedTranslation
-from components.frame import Frame, TwoFrames
+from components.frame import Frame
 from components.orientation import parallel, unit_vector
 from components.prismatic import Prismatic
 from components.spherical import Spherical
-from components.translational.flange import TranslationalFlange
 from components.universal import Universal
 from components.world import require_direction
 
 
-class JointUPS(TwoFrames):
+class JointUPS(DrivenByRod):
     """Universal joint at frame_a, prismatic joint, ball joint at frame_b: a strut of length s + s_offset.
 
     Notes
@@ -34,19 +34,8 @@ class JointUPS(TwoFrames):
     n_axis_ia: Any = structural("from frame_a to frame_b, resolved in frame_ia", default=(1, 0, 0), shape=(3,))
     s_offset: Scalar = parameter("length where s is 0", unit="m", default=0)
     s_guess: Scalar = parameter("guess of s", unit="m", default=1, doc="The length at the start is not 0.")
-    use_axis_flange: bool = structural("whether the prismatic joint has a drive", default=False, choices=(True, False))
     frame_ia: Frame = port(Frame, "fixed to the strut at frame_a")
     frame_ib: Frame = port(Frame, "fixed to the strut at frame_b")
-
-    @port
-    def axis(self) -> TranslationalFlange | None:
-        """Drive rod."""
-        return TranslationalFlange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> TranslationalFlange | None:
-        """Housing of the drive."""
-        return TranslationalFlange() if self.use_axis_flange else None
 
     @part
     def universal(self):
@@ -87,6 +76,4 @@ class JointUPS(TwoFrames):
         yield chain(self.frame_a, self.universal, self.offset, self.prismatic, self.spherical, self.frame_b)
         yield connect(self.universal.frame_b, self.frame_ia)
         yield connect(self.prismatic.frame_b, self.frame_ib)
-        if self.use_axis_flange:
-            yield connect(self.axis, self.prismatic.axis)
-            yield connect(self.support, self.prismatic.support)
+        yield from self.drive_connections(self.prismatic)

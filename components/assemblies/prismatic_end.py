@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from acausal import Scalar, chain, connect, guess, parameter, part, port, structural
+from components.driven import DrivenByRod
 from components.fixed_translation import FixedTranslation
-from components.frame import Frame, TwoFrames
+from components.frame import Frame
 from components.orientation import unit_vector
 from components.prismatic import Prismatic
-from components.translational.flange import TranslationalFlange
 from components.world import require_direction
 
 
-class PrismaticEnd(TwoFrames):
+class PrismaticEnd(DrivenByRod):
     """Base: a prismatic joint at frame_b and rod 2 from it to the joint in the middle; a subclass joins frame_a to rod 2."""
 
     n_b: Any = structural("axis of the prismatic joint, resolved in frame_b", default=(-1, 0, 0), shape=(3,))
@@ -27,19 +27,8 @@ class PrismaticEnd(TwoFrames):
         default=0,
         doc="Selects the nearer one of the two positions in which the loop closes; midway between them it may find neither.",
     )
-    use_axis_flange: bool = structural("whether the prismatic joint has a drive", default=False, choices=(True, False))
     frame_ib: Frame = port(Frame, "fixed to rod 2 at the prismatic joint")
     frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
-
-    @port
-    def axis(self) -> TranslationalFlange | None:
-        """Drive rod."""
-        return TranslationalFlange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> TranslationalFlange | None:
-        """Housing of the drive."""
-        return TranslationalFlange() if self.use_axis_flange else None
 
     @part
     def offset(self):
@@ -63,6 +52,4 @@ class PrismaticEnd(TwoFrames):
     def connections(self):
         yield chain(self.frame_b, self.offset, self.prismatic, self.rod2, self.frame_im)
         yield connect(self.prismatic.frame_b, self.frame_ib)
-        if self.use_axis_flange:
-            yield connect(self.axis, self.prismatic.axis)
-            yield connect(self.support, self.prismatic.support)
+        yield from self.drive_connections(self.prismatic)
