@@ -54,8 +54,8 @@ class LossyGear(HeatLoss, TwoFlangesAndSupport):
     w_a: Scalar = variable("der(phi_a)", unit="rad/s")
     a_a: Scalar = variable("der(w_a)", unit="rad/s2")
     tau_loss: Scalar = variable("torque that is lost, referred to flange_a", unit="N.m")
-    mode: Scalar = discrete("1 turns forward, 0 sticks, -1 turns backward", unit="1", start=sign(w_a))
-    w_stuck: Scalar = discrete("w_a when it last stuck or broke away, 0 but for rounding", unit="rad/s")
+    mode: Scalar = discrete("1 turning forward, 0 sticking, -1 turning backward", unit="1", start=sign(w_a))
+    w_stuck: Scalar = discrete("w_a at the last transition, 0 up to rounding", unit="rad/s")
 
     def check(self) -> None:
         """Refuse efficiencies beyond 1, and negative friction of bearings."""

@@ -21,8 +21,8 @@ class OneWayClutch(PressedShaft, Compliant):
     While the shafts turn alike it takes any torque that flange_a drives with, tau < 0, and the torque of the clutch against it.
     """
 
-    mode: Scalar = discrete("1 flange_b overruns, 0 both turn alike", unit="1", start=sign(Compliant.w_rel))
-    w_stuck: Scalar = discrete("w_rel when it last stuck or broke away, 0 but for rounding", unit="rad/s")
+    mode: Scalar = discrete("1 flange_b overrunning, 0 locked", unit="1", start=sign(Compliant.w_rel))
+    w_stuck: Scalar = discrete("w_rel at the last transition, 0 up to rounding", unit="rad/s")
 
     def law(self):
         """Relative acceleration 0 or torque of sliding."""

@@ -43,9 +43,9 @@ class MassWithStopAndFriction(HeatLoss, Rigid):
     v: Scalar = variable("der(s)", unit="m/s")
     a: Scalar = variable("der(v)", unit="m/s2")
     f: Scalar = variable("force of friction and stops against the motion", unit="N")
-    mode: Scalar = discrete("1 slides forward, 0 rests, -1 slides backward", unit="1", start=sign(v))
+    mode: Scalar = discrete("1 sliding forward, 0 at rest, -1 sliding backward", unit="1", start=sign(v))
     stopped: Scalar = discrete("1 at smax, -1 at smin, else 0", unit="1")
-    v_stuck: Scalar = discrete("v when it last came to rest or broke away, 0 but for rounding", unit="m/s")
+    v_stuck: Scalar = discrete("v at the last transition, 0 up to rounding", unit="m/s")
 
     def equations(self):
         yield from super().equations()
