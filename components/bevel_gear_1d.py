@@ -16,15 +16,15 @@ class BevelGear1D(TwoFlanges):
 
     ratio: Scalar = parameter("transmission ratio, flange_a.phi / flange_b.phi", unit="1")
     n_a: Any = structural(
-        "axis of flange_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of flange_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     n_b: Any = structural(
-        "axis of flange_b, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of flange_b, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     frame_a: Frame = port(Frame, "bearing")
 
     def check(self) -> None:
-        """Refuse axes of length 0."""
+        """Reject axes of length 0."""
         require_direction(self, self.n_a, "n_a")
         require_direction(self, self.n_b, "n_b")
 

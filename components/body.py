@@ -73,7 +73,7 @@ class Body(MovingBody):
         return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._centre())) + dot(w, self.I @ w) / 2
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         return self.world.power(self.m, self._centre(), self._velocity())
 
     def shapes(self):

@@ -21,7 +21,7 @@ class ConstantVelocityJoint(TwoFrames):
     """
 
     n: Any = structural(
-        "axis of the shafts, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of the shafts, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     theta: Any = variable(
         "rotation vector across n, of length 2 tan(angle / 2), along two directions at right angles",
@@ -33,7 +33,7 @@ class ConstantVelocityJoint(TwoFrames):
     a: Any = variable("der(w)", unit="rad/s2", shape=(2,))
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def connections(self):

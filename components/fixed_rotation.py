@@ -25,7 +25,7 @@ class FixedRotation(TwoFrames):
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m", default=(0, 0, 0))
     n: Any = structural(
-        "axis of rotation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of rotation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     angle: Any = structural("angle of rotation about n, in rad", default=0.0, shape=(), doc="From frame_a to frame_b.")
     rotation_type: str = structural(

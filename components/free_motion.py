@@ -33,5 +33,5 @@ class FreeMotion(Spherical):
             yield frame.t == (0, 0, 0)
 
     def shapes(self):
-        """Nothing: it is no body."""
+        """No shape: the part has no size."""
         yield from ()

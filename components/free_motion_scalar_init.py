@@ -86,5 +86,5 @@ class FreeMotionScalarInit(TwoFrames):
         yield w == b.R.w - resolve2(b.R, resolve1(a.R, a.R.w))
 
     def shapes(self):
-        """Nothing: it is no body."""
+        """No shape: the part has no size."""
         yield from ()

@@ -17,10 +17,10 @@ class GearConstraint(Component):
     ends = ("frame_a", "frame_b")
     ratio: Scalar = parameter("transmission ratio, angle of frame_a over that of frame_b", unit="1")
     n_a: Any = structural(
-        "axis of frame_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of frame_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     n_b: Any = structural(
-        "axis of frame_b, resolved in frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of frame_b, resolved in frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     r_a: Vector3 = parameter("from the bearing to frame_a, resolved in the bearing", unit="m", default=(0, 0, 0))
     r_b: Vector3 = parameter("from the bearing to frame_b, resolved in the bearing", unit="m", default=(0, 0, 0))

@@ -55,7 +55,7 @@ class LineForceWithTwoMasses(LineForce):
         return energy
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         masses = self._masses((self.frame_b.r_0 - self.frame_a.r_0) / self.s)
         return sum(self.world.power(m, r, der(r)) for m, r in masses)
 

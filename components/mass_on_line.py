@@ -37,7 +37,7 @@ class MassOnLine(LineForce):
         return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._place()))
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         return self.world.power(self.m, self._place(), self._velocity())
 
     def _place(self) -> Expr:

@@ -17,13 +17,13 @@ class Mounting1D(Component):
     ends = ("frame_a", "flange_b")
     phi0: Scalar = parameter("angle of flange_b relative to frame_a", unit="rad", default=0)
     n: Any = structural(
-        "axis of the torque, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of the torque, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     frame_a: Frame = port(Frame, "where the housing is fixed")
     flange_b: Flange = port(Flange, "the held shaft end")
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def equations(self):

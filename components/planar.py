@@ -16,7 +16,7 @@ class Planar(TwoFrames):
     """Planar joint: frame_b moves in the plane of frame_a that is normal to n, and turns about n."""
 
     n: Any = structural(
-        "normal of the plane, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "normal of the plane, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     n_x: Any = structural(
         "direction of s_x, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Only its part in the plane counts."

@@ -51,7 +51,7 @@ class PointMass(Component):
         return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self.frame_a.r_0))
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         return self.world.power(self.m, self.frame_a.r_0, self.v_0)
 
     def shapes(self):

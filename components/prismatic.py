@@ -16,7 +16,7 @@ class Prismatic(DrivenByRod, DrivenJoint):
     """Prismatic joint: frame_b slides relative to frame_a along the axis n."""
 
     n: Any = structural(
-        "axis of translation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of translation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     d: Scalar = parameter("viscous friction", unit="N.s/m", default=0, minimum=0)
     f_dry: Scalar = parameter(

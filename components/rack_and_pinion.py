@@ -41,7 +41,7 @@ class RackAndPinion(Component):
     ends = ("frame_a", "frame_b")
     radius: Scalar = parameter("pitch radius of the pinion", unit="m", positive=True)
     n_a: Any = structural(
-        "axis of the pinion, resolved in the housing", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of the pinion, resolved in the housing", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     n_b: Any = structural(
         "direction of the rack, resolved in the housing", default=(1, 0, 0), shape=(3,), doc="At right angles to n_a."

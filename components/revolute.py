@@ -17,7 +17,7 @@ class Revolute(DrivenByShaft, DrivenJoint):
     """Revolute joint: frame_b turns relative to frame_a about the axis n."""
 
     n: Any = structural(
-        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     d: Scalar = parameter("viscous friction", unit="N.m.s/rad", default=0, minimum=0)
     tau_dry: Scalar = parameter(

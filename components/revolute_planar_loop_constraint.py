@@ -20,12 +20,12 @@ class RevolutePlanarLoopConstraint(TwoFrames):
     """
 
     n: Any = structural(
-        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     f_c: Any = variable("constraint forces across n, along two directions at right angles", unit="N", shape=(2,))
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def equations(self):

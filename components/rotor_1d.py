@@ -22,7 +22,9 @@ class Rotor1D(TwoFlanges):
     """
 
     J: Scalar = parameter("moment of inertia about n", unit="kg.m2", minimum=0)
-    n: Any = structural("axis of rotation, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0.")
+    n: Any = structural(
+        "axis of rotation, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
+    )
     exact: bool = structural(
         "whether the angular acceleration of frame_a accelerates the rotor", default=True, choices=(True, False)
     )
@@ -33,7 +35,7 @@ class Rotor1D(TwoFlanges):
     a: Scalar = variable("der(w)", unit="rad/s2")
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def equations(self):

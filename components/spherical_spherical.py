@@ -67,7 +67,7 @@ class SphericalSpherical(TwoFrames):
         return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._middle()))
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         return self.world.power(self.m, self._middle(), self._velocity())
 
     def shapes(self):

@@ -63,7 +63,7 @@ class Tyre(HeatLoss):
 
     ends = ("frame_a", "")
     n: Any = structural(
-        "axis of the wheel, resolved in frame_a", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of the wheel, resolved in frame_a", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     up: Any = structural(
         "direction of the height of the ground, resolved in the world",

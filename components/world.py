@@ -47,7 +47,7 @@ class World(Component):
         "direction of gravity, resolved in the world",
         default=(0, -1, 0),
         shape=(3,),
-        doc="Where it is uniform; any length but 0.",
+        doc="Where it is uniform; any nonzero length.",
     )
     mu: Scalar = parameter(
         "gravity constant of the central body",
@@ -58,7 +58,7 @@ class World(Component):
     frame_b: Frame = port(Frame, "the inertial frame")
 
     def check(self) -> None:
-        """Refuse a direction of length 0."""
+        """Reject a direction of length 0."""
         require_direction(self, self.n, "n")
 
     def connections(self):

@@ -46,7 +46,7 @@ class RevoluteEnd(DrivenByShaft):
         return FixedTranslation(r=self.r_rod2_ib)
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n_b, "n_b")
 
     def connections(self):

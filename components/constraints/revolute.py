@@ -15,11 +15,11 @@ class Revolute(PositionConstraint):
     """Holds the origins of two frames together, and an axis of theirs; frame_b turns about it."""
 
     n: Any = structural(
-        "axis of rotation, the same in frame_a and frame_b", default=(0, 1, 0), shape=(3,), doc="Any length but 0."
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 1, 0), shape=(3,), doc="Any nonzero length."
     )
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def turning(self, t_b_a):

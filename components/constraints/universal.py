@@ -14,7 +14,7 @@ from components.world import require_direction
 class Universal(PositionConstraint):
     """Holds the origins of two frames together; they turn about an axis of each, between which the angle is constant."""
 
-    n_a: Any = structural("first axis, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0.")
+    n_a: Any = structural("first axis, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length.")
     n_b: Any = structural("second axis, resolved in frame_b", default=(0, 1, 0), shape=(3,), doc="Not parallel to n_a.")
 
     def check(self) -> None:

@@ -17,12 +17,12 @@ class PointOnPlane(Contact):
         "normal of the plane towards the side of frame_b, resolved in frame_a",
         default=(0, 1, 0),
         shape=(3,),
-        doc="Any length but 0.",
+        doc="Any nonzero length.",
     )
     k: Scalar = parameter("stiffness", unit="N/m", positive=True)
 
     def check(self) -> None:
-        """Refuse a normal of length 0."""
+        """Reject a normal of length 0."""
         require_direction(self, self.n_a, "n_a")
 
     def place(self):

@@ -26,7 +26,7 @@ class PointOnProfile(Contact):
     """
 
     n_a: Any = structural(
-        "direction of the height, resolved in frame_a", default=(0, 1, 0), shape=(3,), doc="Any length but 0."
+        "direction of the height, resolved in frame_a", default=(0, 1, 0), shape=(3,), doc="Any nonzero length."
     )
     height: Any = structural(
         "height of the ground in m, as a function of the place",
@@ -41,7 +41,7 @@ class PointOnProfile(Contact):
     curvature: Matrix33 = variable("curvature of the ground, positive in a valley, resolved in frame_a", unit="1/m")
 
     def check(self) -> None:
-        """Refuse a direction of length 0."""
+        """Reject a direction of length 0."""
         require_direction(self, self.n_a, "n_a")
 
     def equations(self):

@@ -27,16 +27,16 @@ class RimOnPlane(Contact):
         "normal of the plane towards the wheel, resolved in frame_a",
         default=(0, 1, 0),
         shape=(3,),
-        doc="Any length but 0.",
+        doc="Any nonzero length.",
     )
     n_b: Any = structural(
-        "axis of the wheel, resolved in frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of the wheel, resolved in frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     radius: Scalar = parameter("radius of the rim", unit="m", positive=True)
     k: Scalar = parameter("stiffness", unit="N/m", positive=True)
 
     def check(self) -> None:
-        """Refuse directions of length 0."""
+        """Reject directions of length 0."""
         require_direction(self, self.n_a, "n_a")
         require_direction(self, self.n_b, "n_b")
 

@@ -25,13 +25,13 @@ class SphereOnPlane(Contact):
         "normal of the plane towards the sphere, resolved in frame_a",
         default=(0, 1, 0),
         shape=(3,),
-        doc="Any length but 0.",
+        doc="Any nonzero length.",
     )
     radius: Scalar = parameter("radius of the sphere", unit="m", positive=True)
     k: Scalar = parameter("stiffness", unit="N/m^(3/2)", positive=True)
 
     def check(self) -> None:
-        """Refuse a normal of length 0."""
+        """Reject a normal of length 0."""
         require_direction(self, self.n_a, "n_a")
 
     def place(self):

@@ -16,8 +16,8 @@ class AngleToTorqueAdaptor(GivenMotion):
     use_a: bool = structural("whether speed and acceleration are given", default=True, choices=(True, False))
     flange: Flange = port(Flange, "shaft end that is moved")
     phi: Scalar = input("angle of the flange", unit="rad")
-    w: Scalar = input("speed of the flange", unit="rad/s", doc="0 where it is not used.")
-    a: Scalar = input("acceleration of the flange", unit="rad/s2", doc="0 where it is not used.")
+    w: Scalar = input("speed of the flange", unit="rad/s", doc="0 if unused.")
+    a: Scalar = input("acceleration of the flange", unit="rad/s2", doc="0 if unused.")
     tau: Scalar = output("torque that moves the flange, -flange.tau", unit="N.m")
 
     def levels(self) -> int:

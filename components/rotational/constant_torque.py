@@ -10,7 +10,7 @@ class ConstantTorque(LoadingTorque):
     """Constant torque, whatever the speed."""
 
     tau_constant: Scalar = parameter(
-        "torque on the shaft", unit="N.m", doc="Negative: a load where the shaft turns forwards."
+        "torque on the shaft", unit="N.m", doc="Negative for a load on a shaft turning forwards."
     )
 
     def law(self):

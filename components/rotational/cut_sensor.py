@@ -17,4 +17,4 @@ class CutSensor(TwoFlanges):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")

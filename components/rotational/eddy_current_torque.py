@@ -38,5 +38,5 @@ class EddyCurrentTorque(HeatLoss, OneFlange):
         return self.tau * self.w
 
     def supplied_power(self):
-        """Nothing: it brakes."""
+        """None: the part only brakes."""
         return 0.0

@@ -14,8 +14,8 @@ from components.thermal.heat_port import HeatPort
 class Gearbox(TwoFlanges):
     """Gear with losses, and behind it elasticity, damping and backlash."""
 
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
-    use_heat_port: bool = structural("whether the losses leave by heat_port", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
+    use_heat_port: bool = structural("whether losses flow out of heat_port", default=False, choices=(True, False))
     ratio: Scalar = parameter("transmission ratio, flange_a.phi / flange_b.phi without elasticity", unit="1")
     loss_table: Any = structural(
         "losses over the speed of flange_a", default=LossyGear.loss_table.default, doc="As of LossyGear."
@@ -34,7 +34,7 @@ class Gearbox(TwoFlanges):
 
     @port
     def heat_port(self) -> HeatPort | None:
-        """Where the losses leave."""
+        """Outlet of the losses."""
         return HeatPort() if self.use_heat_port else None
 
     @part

@@ -13,11 +13,11 @@ class GeneralAngleToTorqueAdaptor(GivenMotion):
     ends = ("flange", "flange")
     motion_units = ("rad", "rad/s", "rad/s2")
     use_pder: bool = structural("whether the speed is given", default=True, choices=(True, False))
-    use_pder2: bool = structural("whether the acceleration is given beside it", default=True, choices=(True, False))
+    use_pder2: bool = structural("whether the acceleration is given as well", default=True, choices=(True, False))
     flange: Flange = port(Flange, "shaft end that is moved")
     p: Scalar = input("angle of the flange", unit="rad")
-    pder: Scalar = input("speed of the flange", unit="rad/s", doc="0 where it is not used.")
-    pder2: Scalar = input("acceleration of the flange", unit="rad/s2", doc="0 where it is not used.")
+    pder: Scalar = input("speed of the flange", unit="rad/s", doc="0 if unused.")
+    pder2: Scalar = input("acceleration of the flange", unit="rad/s2", doc="0 if unused.")
     f: Scalar = output("torque that moves the flange, -flange.tau", unit="N.m")
 
     def levels(self) -> int:

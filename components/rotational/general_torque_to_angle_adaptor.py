@@ -10,8 +10,8 @@ class GeneralTorqueToAngleAdaptor(Component):
     """A signal of the torque acts on a flange, whose angle, speed and acceleration are signals."""
 
     ends = ("flange", "flange")
-    use_pder: bool = structural("whether the speed is put out", default=True, choices=(True, False))
-    use_pder2: bool = structural("whether the acceleration is put out", default=True, choices=(True, False))
+    use_pder: bool = structural("whether the speed is an output", default=True, choices=(True, False))
+    use_pder2: bool = structural("whether the acceleration is an output", default=True, choices=(True, False))
     flange: Flange = port(Flange, "shaft end on which the torque acts")
     p: Scalar = output("angle of the flange", unit="rad")
     pder: Scalar = output("speed of the flange, 0 without use_pder", unit="rad/s")

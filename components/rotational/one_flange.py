@@ -10,7 +10,7 @@ class OneFlange(Component):
     """Base of drives with one shaft end, whose housing stands still or is a flange of its own."""
 
     ends = ("flange", "flange")
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     flange: Flange = port(Flange, "shaft end")
     phi: Scalar = variable("angle of the flange relative to the support", unit="rad")
     w: Scalar = variable("der(phi)", unit="rad/s")

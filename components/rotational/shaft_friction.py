@@ -10,7 +10,7 @@ from components.flange import Flange, TwoFlanges
 class ShaftFriction(DryFriction, TwoFlanges):
     """Base of dry friction between a rigid massless shaft and its housing, which is fixed or has its own flange."""
 
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     phi: Scalar = variable("angle of the shaft relative to the support", unit="rad")
     w: Scalar = variable("der(phi)", unit="rad/s")
     a: Scalar = variable("der(w)", unit="rad/s2")

@@ -13,8 +13,8 @@ class SignTorque(LoadingTorque):
     tau_nominal: Scalar = parameter(
         "torque on the shaft", unit="N.m", doc="Negative: a load in both directions of rotation."
     )
-    reg: str = structural("how the sign is regularised", default="exp", choices=KINDS)
-    w0: Scalar = parameter("speed below which it is regularised", unit="rad/s", default=0.1, positive=True)
+    reg: str = structural("regularisation of the sign", default="exp", choices=KINDS)
+    w0: Scalar = parameter("speed below which the sign is regularised", unit="rad/s", default=0.1, positive=True)
 
     def law(self):
         """Regularised sign of the speed."""

@@ -10,7 +10,7 @@ class TorqueStep(LoadingTorque):
     """Torque that jumps at start_time."""
 
     step_torque: Scalar = parameter(
-        "height of the step", unit="N.m", doc="Negative: a load where the shaft turns forwards."
+        "height of the step", unit="N.m", doc="Negative for a load on a shaft turning forwards."
     )
     offset_torque: Scalar = parameter("torque before the step", unit="N.m", default=0)
     start_time: Scalar = parameter("time of the step", unit="s", default=0)

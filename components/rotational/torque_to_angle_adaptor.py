@@ -10,8 +10,8 @@ class TorqueToAngleAdaptor(Component):
     """A signal of the torque acts on a flange, whose angle, speed and acceleration are signals."""
 
     ends = ("flange", "flange")
-    use_w: bool = structural("whether the speed is put out", default=True, choices=(True, False))
-    use_a: bool = structural("whether the acceleration is put out", default=True, choices=(True, False))
+    use_w: bool = structural("whether the speed is an output", default=True, choices=(True, False))
+    use_a: bool = structural("whether the acceleration is an output", default=True, choices=(True, False))
     flange: Flange = port(Flange, "shaft end on which the torque acts")
     phi: Scalar = output("angle of the flange", unit="rad")
     w: Scalar = output("speed of the flange, 0 without use_w", unit="rad/s")

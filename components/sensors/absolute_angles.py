@@ -20,5 +20,5 @@ class AbsoluteAngles(HasAngles):
         yield self.angles == axes_angles(self.frame_a.R.T, self.sequence, self.guess_angle1)
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

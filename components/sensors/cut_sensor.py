@@ -49,8 +49,8 @@ class CutSensor(TwoFrames):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

@@ -30,5 +30,5 @@ class Distance(TwoFrames):
         yield self.distance == distance(self.frame_a, self.frame_b, self.s_small)
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

@@ -10,7 +10,7 @@ from components.orientation import resolve2
 
 
 class OneFrameSensor(Component):
-    """Base of sensors of a frame, which bear no load; a subclass states what it measures."""
+    """Base of sensors of a frame, which transmit no load; a subclass defines the measured values."""
 
     ends = ("frame_a", "frame_a")
     resolve_in_frame: str = structural(
@@ -36,10 +36,10 @@ class OneFrameSensor(Component):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()
 
 

@@ -19,5 +19,5 @@ class RelativeAngles(HasAngles, TwoFrames):
         yield self.angles == axes_angles(self.frame_b.R.T @ self.frame_a.R.T.T, self.sequence, self.guess_angle1)
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

@@ -16,12 +16,12 @@ class HeatLoss(Component):
     Without a heat port the loss counts as dissipated; with one it flows on as heat.
     """
 
-    use_heat_port: bool = structural("whether the losses leave by heat_port", default=False, choices=(True, False))
+    use_heat_port: bool = structural("whether losses flow out of heat_port", default=False, choices=(True, False))
     loss_power: Scalar = variable("power that turns into heat", unit="W")
 
     @port
     def heat_port(self) -> HeatPort | None:
-        """Where the losses leave."""
+        """Outlet of the losses."""
         return HeatPort() if self.use_heat_port else None
 
     def equations(self):

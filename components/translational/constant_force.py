@@ -9,7 +9,7 @@ from components.translational.loading_force import LoadingForce
 class ConstantForce(LoadingForce):
     """Constant force, whatever the speed."""
 
-    f_constant: Scalar = parameter("force on the rod", unit="N", doc="Negative: a load where the rod moves forwards.")
+    f_constant: Scalar = parameter("force on the rod", unit="N", doc="Negative for a load on a rod moving forwards.")
 
     def law(self):
         """Constant force."""

@@ -35,5 +35,5 @@ class EddyCurrentForce(HeatLoss, LoadingForce):
         return self.f * self.v
 
     def supplied_power(self):
-        """Nothing: it brakes."""
+        """None: the part only brakes."""
         return 0.0

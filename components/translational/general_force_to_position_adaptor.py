@@ -10,8 +10,8 @@ class GeneralForceToPositionAdaptor(Component):
     """A signal of the force acts on a flange, whose position, speed and acceleration are signals."""
 
     ends = ("flange", "flange")
-    use_pder: bool = structural("whether the speed is put out", default=True, choices=(True, False))
-    use_pder2: bool = structural("whether the acceleration is put out", default=True, choices=(True, False))
+    use_pder: bool = structural("whether the speed is an output", default=True, choices=(True, False))
+    use_pder2: bool = structural("whether the acceleration is an output", default=True, choices=(True, False))
     flange: TranslationalFlange = port(TranslationalFlange, "rod end on which the force acts")
     p: Scalar = output("position of the flange", unit="m")
     pder: Scalar = output("speed of the flange, 0 without use_pder", unit="m/s")

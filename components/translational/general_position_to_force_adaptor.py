@@ -12,11 +12,11 @@ class GeneralPositionToForceAdaptor(GivenMotion):
 
     ends = ("flange", "flange")
     use_pder: bool = structural("whether the speed is given", default=True, choices=(True, False))
-    use_pder2: bool = structural("whether the acceleration is given beside it", default=True, choices=(True, False))
+    use_pder2: bool = structural("whether the acceleration is given as well", default=True, choices=(True, False))
     flange: TranslationalFlange = port(TranslationalFlange, "rod end that is moved")
     p: Scalar = input("position of the flange", unit="m")
-    pder: Scalar = input("speed of the flange", unit="m/s", doc="0 where it is not used.")
-    pder2: Scalar = input("acceleration of the flange", unit="m/s2", doc="0 where it is not used.")
+    pder: Scalar = input("speed of the flange", unit="m/s", doc="0 if unused.")
+    pder2: Scalar = input("acceleration of the flange", unit="m/s2", doc="0 if unused.")
     f: Scalar = output("force that moves the flange, -flange.f", unit="N")
 
     def levels(self) -> int:

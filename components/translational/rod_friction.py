@@ -10,7 +10,7 @@ from components.translational.flange import TranslationalFlange, TwoFlanges
 class RodFriction(DryFriction, TwoFlanges):
     """Base of dry friction between a rigid massless rod and its housing, which is fixed or has its own flange."""
 
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     s: Scalar = variable("position of the rod relative to the support", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")
     a: Scalar = variable("der(v)", unit="m/s2")

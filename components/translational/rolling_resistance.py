@@ -15,8 +15,8 @@ class RollingResistance(LoadingForce):
     inclination_constant: Scalar = parameter(
         "inclination of the road", unit="1", default=0, doc="Tangent of its angle, not the angle."
     )
-    reg: str = structural("how the sign of the speed is regularised", default="exp", choices=KINDS)
-    v0: Scalar = parameter("speed below which it is regularised", unit="m/s", default=0.1, positive=True)
+    reg: str = structural("regularisation of the sign of the speed", default="exp", choices=KINDS)
+    v0: Scalar = parameter("speed below which the sign is regularised", unit="m/s", default=0.1, positive=True)
     cr: Scalar = input(
         "coefficient of rolling resistance that varies",
         unit="1",
@@ -36,7 +36,7 @@ class RollingResistance(LoadingForce):
         yield self.f == self.cr * normal * regularized_sign(self.v, self.v0, self.reg)
 
     def supplied_power(self):
-        """Nothing: it brakes."""
+        """None: the part only brakes."""
         return 0.0
 
     def dissipated_power(self):

@@ -11,8 +11,8 @@ class SignForce(LoadingForce):
     """Constant force that changes its sign with the speed."""
 
     f_nominal: Scalar = parameter("force on the rod", unit="N", doc="Negative: a load in both directions of motion.")
-    reg: str = structural("how the sign is regularised", default="exp", choices=KINDS)
-    v0: Scalar = parameter("speed below which it is regularised", unit="m/s", default=0.1, positive=True)
+    reg: str = structural("regularisation of the sign", default="exp", choices=KINDS)
+    v0: Scalar = parameter("speed below which the sign is regularised", unit="m/s", default=0.1, positive=True)
 
     def law(self):
         """Regularised sign of the speed."""
