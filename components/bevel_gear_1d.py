@@ -1,4 +1,4 @@
-"""BevelGear1D: a gear between shafts of any direction on a moving body."""
+"""BevelGear1D: gear between two shafts of arbitrary direction on a moving body."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from components.world import require_direction
 
 
 class BevelGear1D(TwoFlanges):
-    """Gear without inertia between two shafts of any direction, whose bearing is fixed to frame_a."""
+    """Massless gear between two shafts of arbitrary direction, with its bearing fixed to frame_a."""
 
     ratio: Scalar = parameter("transmission ratio, flange_a.phi / flange_b.phi", unit="1")
     n_a: Any = structural(

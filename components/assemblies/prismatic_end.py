@@ -14,21 +14,21 @@ from components.world import require_direction
 
 
 class PrismaticEnd(DrivenByRod):
-    """Base: a prismatic joint at frame_b and rod 2 from it to the joint in the middle; a subclass joins frame_a to rod 2."""
+    """Base: prismatic joint at frame_b, then rod 2 up to the middle joint; a subclass connects frame_a to rod 2."""
 
     n_b: Any = structural("axis of the prismatic joint, resolved in frame_b", default=(-1, 0, 0), shape=(3,))
     r_rod2_ib: Any = structural(
-        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
+        "from frame_ib to the middle joint, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
     )
-    s_offset: Scalar = parameter("distance of the frames of the prismatic joint where s is 0", unit="m", default=0)
+    s_offset: Scalar = parameter("distance between the frames of the prismatic joint at s = 0", unit="m", default=0)
     s_guess: Scalar = parameter(
-        "guess of s",
+        "initial guess of s",
         unit="m",
         default=0,
-        doc="Selects the nearer one of the two positions in which the loop closes; midway between them it may find neither.",
+        doc="Selects the closer of the two assembly configurations; a guess midway between them may find neither.",
     )
     frame_ib: Frame = port(Frame, "fixed to rod 2 at the prismatic joint")
-    frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
+    frame_im: Frame = port(Frame, "fixed to rod 2 at the middle joint")
 
     @part
     def offset(self):
@@ -42,7 +42,7 @@ class PrismaticEnd(DrivenByRod):
 
     @part
     def rod2(self):
-        """Rod from frame_ib to the joint in the middle."""
+        """Rod from frame_ib to the middle joint."""
         return FixedTranslation(r=self.r_rod2_ib)
 
     def check(self) -> None:

@@ -14,21 +14,21 @@ from components.world import require_direction
 
 
 class RevoluteEnd(DrivenByShaft):
-    """Base: a revolute joint at frame_b and rod 2 from it to the joint in the middle; a subclass joins frame_a to rod 2."""
+    """Base: revolute joint at frame_b, then rod 2 up to the middle joint; a subclass connects frame_a to rod 2."""
 
     n_b: Any = structural("axis of the revolute joint, resolved in frame_b", default=(0, 0, 1), shape=(3,))
     r_rod2_ib: Any = structural(
-        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
+        "from frame_ib to the middle joint, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
     )
-    phi_offset: Any = structural("angle of the revolute joint where phi is 0, in rad", default=0.0, shape=())
+    phi_offset: Any = structural("angle of the revolute joint at phi = 0, in rad", default=0.0, shape=())
     phi_guess: Scalar = parameter(
-        "guess of phi",
+        "initial guess of phi",
         unit="rad",
         default=0,
-        doc="Helps to select one of the two positions in which the loop closes; midway between them it may find neither.",
+        doc="Helps to select one of the two assembly configurations; a guess midway between them may find neither.",
     )
     frame_ib: Frame = port(Frame, "fixed to rod 2 at frame_b")
-    frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
+    frame_im: Frame = port(Frame, "fixed to rod 2 at the middle joint")
 
     @part
     def offset(self):
@@ -42,7 +42,7 @@ class RevoluteEnd(DrivenByShaft):
 
     @part
     def rod2(self):
-        """Rod from frame_ib to the joint in the middle."""
+        """Rod from frame_ib to the middle joint."""
         return FixedTranslation(r=self.r_rod2_ib)
 
     def check(self) -> None:

@@ -43,8 +43,8 @@ class Held(Model):
 @pytest.mark.parametrize(
     ("body", "message"),
     [
-        (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(1, 0, 0)), "`width_direction` of it lies along `r`"),
-        (BodyBox(r=(1, 2, 3), width=0.1, width_direction=(-2, -4, -6)), "`width_direction` of it lies along `r`"),
+        (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(1, 0, 0)), "`width_direction` of it is parallel to `r`"),
+        (BodyBox(r=(1, 2, 3), width=0.1, width_direction=(-2, -4, -6)), "`width_direction` of it is parallel to `r`"),
         (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(0, 0, 0)), "has length 0"),
         (BodyBox(r=(1, 0, 0), width=0.1, width_direction="y"), "three numbers"),
         (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(0, np.nan, 1)), "three numbers"),
@@ -69,7 +69,7 @@ def test_impossible_shapes(body, message):
 @pytest.mark.parametrize(
     ("body", "changes", "message"),
     [
-        (BodyBox(r=(1, 1, 0), width=0.1, width_direction=(1, 0, 0)), {"it.r": (1, 1e-9, 0)}, "lies along `r`"),
+        (BodyBox(r=(1, 1, 0), width=0.1, width_direction=(1, 0, 0)), {"it.r": (1, 1e-9, 0)}, "is parallel to `r`"),
         (BodyCylinder(r=(1, 0, 0), diameter=0.1, inner_diameter=0.05), {"it.diameter": 0.04}, "`inner_diameter`"),
         (BodyCylinder(r=(1, 0, 0), diameter=0.1), {"it.r": (0, 0, 0)}, "length 0"),
     ],
