@@ -11,7 +11,7 @@ from components.world import require_direction
 
 
 class Cylindrical(TwoFrames):
-    """Cylindrical joint: frame_b slides along and turns about the axis n relative to frame_a."""
+    """Cylindrical joint: frame_b slides along the axis n and rotates about it relative to frame_a."""
 
     n: Any = structural(
         "axis of the cylinder, the same in frame_a and frame_b",

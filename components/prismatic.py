@@ -24,10 +24,10 @@ class Prismatic(DrivenByRod, DrivenJoint):
         unit="N",
         default=0,
         minimum=0,
-        doc='d v + f_dry tanh(v / v_dry) acts against v, and creeps where it should stick; with friction="stiction" it sticks. '
-        'With friction="reaction" it is mu |f|, f across n.',
+        doc='The force d v + f_dry tanh(v / v_dry) opposes v and creeps at rest; with friction="stiction" the joint sticks up to '
+        'peak f_dry. With friction="reaction" the dry friction is mu |f|, f normal to n.',
     )
-    v_dry: Scalar = parameter("speed below which dry friction fades", unit="m/s", default=1e-3, positive=True)
+    v_dry: Scalar = parameter("speed of regularisation of dry friction", unit="m/s", default=1e-3, positive=True)
     compliance: Scalar = parameter(
         "compliance of the drive", unit="m/N", default=0, minimum=0, doc="axis.s - s = compliance f; 0 is rigid."
     )
@@ -38,7 +38,7 @@ class Prismatic(DrivenByRod, DrivenJoint):
 
     @part
     def stiction(self) -> PrismaticFriction | None:
-        """Dry friction that sticks."""
+        """Dry friction with stiction."""
         return PrismaticFriction(peak=self.peak) if self.sticks() else None
 
     def equations(self):
@@ -49,10 +49,10 @@ class Prismatic(DrivenByRod, DrivenJoint):
         yield from move(self.frame_a, self.frame_b, r, null_rotation())
         yield self.frame_a.f == -self.frame_b.f
         yield self.frame_a.t == -self.frame_b.t - cross(r, self.frame_b.f)
-        yield self.f - self.resisting(self._drag()) == -dot(n, self.frame_b.f)
-        yield from self.sliding(self.v, self.f_dry, quantity(1.0, "1"))
+        yield self.f - self.friction_load(self._drag()) == -dot(n, self.frame_b.f)
+        yield from self.stiction_equations(self.v, self.f_dry, quantity(1.0, "1"))
         if self.use_axis_flange:
-            yield self.axis.s == self.s + self.give(self.f)
+            yield self.axis.s == self.s + self.drive_deflection(self.f)
             yield self.axis.f == self.f
             yield self.support.s == 0
         else:
@@ -67,10 +67,10 @@ class Prismatic(DrivenByRod, DrivenJoint):
 
     def stored_energy(self):
         """Elastic energy of the drive."""
-        return self.f * self.give(self.f) / 2
+        return self.f * self.drive_deflection(self.f) / 2
 
     def dissipated_power(self):
-        """Power of the friction."""
+        """Power of friction without stiction."""
         return self.v * self._drag()
 
     def _drag(self) -> Any:

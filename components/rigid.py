@@ -24,7 +24,7 @@ def wrong_inertia(I: np.ndarray) -> str:
         return f"has a negative moment of inertia about {'xyz'[int(np.argmin(moments))]}"
     if np.any(np.abs(I - I.T) > UNEQUAL * trace):
         i, j = np.unravel_index(np.argmax(np.abs(I - I.T)), I.shape)
-        return f"is not symmetric: I[{i},{j}] is {I[i, j]:g} and I[{j},{i}] is {I[j, i]:g}; give every product twice"
+        return f"is not symmetric: I[{i},{j}] is {I[i, j]:g} and I[{j},{i}] is {I[j, i]:g}; give both entries of each product"
     principal = np.linalg.eigvalsh(I)
     if _has_density(I) or principal[0] >= -NEGATIVE * principal[2]:
         return ""

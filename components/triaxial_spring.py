@@ -1,4 +1,4 @@
-"""TriaxialSpring: springs and dampers along three axes."""
+"""TriaxialSpring: linear springs and dampers along three axes."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ class TriaxialSpring(HeatLoss, TwoFrames):
     Notes
     -----
     f = f_0 + diag(c) (r_rel - r_rel0) + diag(d) v_rel. At frame_a the opposite force acts, with the moment r_rel x f. No branch:
-    the component relates no orientations, each end must be held by something else.
+    the component does not relate the orientations of its ends; other parts must hold both.
     """
 
     c: Vector3 = parameter("stiffness along the axes of frame_a", unit="N/m", minimum=0)
     d: Vector3 = parameter("damping along the axes of frame_a", unit="N.s/m", default=(0, 0, 0), minimum=0)
     r_rel0: Vector3 = parameter(
-        "position of frame_b from frame_a without elastic force, resolved in frame_a", unit="m", default=(0, 0, 0)
+        "position of frame_b from frame_a at zero elastic force, resolved in frame_a", unit="m", default=(0, 0, 0)
     )
     f_0: Vector3 = parameter("preload: force f at r_rel0, resolved in frame_a", unit="N", default=(0, 0, 0))
     r_rel: Vector3 = variable("position of frame_b from frame_a, resolved in frame_a", unit="m")
     v_rel: Vector3 = variable("der(r_rel)", unit="m/s")
-    f: Vector3 = variable("force, positive if it pulls frame_b back to frame_a, resolved in frame_a", unit="N")
+    f: Vector3 = variable("restoring force on frame_b, resolved in frame_a", unit="N")
 
     def equations(self):
         yield from super().equations()

@@ -8,7 +8,7 @@ from components.frame import turn_between
 
 
 class Prismatic(PositionConstraint):
-    """Holds two frames parallel, and their origins together but for the directions that are not locked."""
+    """Keeps two frames parallel and their origins coincident along the locked directions."""
 
     def turning(self, t_b_a):
         yield turn_between(self.frame_a, self.frame_b) == (0, 0, 0)

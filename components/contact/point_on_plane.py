@@ -1,4 +1,4 @@
-"""PointOnPlane: a point that touches a plane."""
+"""PointOnPlane: contact of a point with a plane."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class PointOnPlane(Contact):
         """Reject a normal of length 0."""
         require_direction(self, self.n_a, "n_a")
 
-    def place(self):
-        """The point itself."""
+    def contact_geometry(self):
+        """Normal, penetration and position of the point."""
         a, b = self.frame_a, self.frame_b
         n = resolve1(a.R, unit_vector(self.n_a))
         return n, -dot(n, b.r_0 - a.r_0), b.r_0

@@ -1,4 +1,4 @@
-"""SphereOnPlane: a sphere that touches a plane."""
+"""SphereOnPlane: contact of a sphere with a plane."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ class SphereOnPlane(Contact):
         """Reject a normal of length 0."""
         require_direction(self, self.n_a, "n_a")
 
-    def place(self):
-        """The point of the plane nearest to the centre."""
+    def contact_geometry(self):
+        """Normal, penetration and the point of the plane closest to the centre."""
         a, b = self.frame_a, self.frame_b
         n = resolve1(a.R, unit_vector(self.n_a))
         height = dot(n, b.r_0 - a.r_0)

@@ -25,7 +25,7 @@ class AngleToTorqueAdaptor(GivenMotion):
         return 3 if self.use_a else 2 if self.use_w else 1
 
     def equations(self):
-        yield from self.given(self.phi, self.w, self.a)
+        yield from self.motion_equations(self.phi, self.w, self.a)
         yield self.flange.phi == self.motion[0]
         yield self.tau == -self.flange.tau
 

@@ -25,7 +25,7 @@ class GeneralAngleToTorqueAdaptor(GivenMotion):
         return 1 + self.use_pder * (1 + self.use_pder2)
 
     def equations(self):
-        yield from self.given(self.p, self.pder, self.pder2)
+        yield from self.motion_equations(self.p, self.pder, self.pder2)
         yield self.flange.phi == self.motion[0]
         yield self.f == -self.flange.tau
 

@@ -24,7 +24,7 @@ class GeneralPositionToForceAdaptor(GivenMotion):
         return 1 + self.use_pder * (1 + self.use_pder2)
 
     def equations(self):
-        yield from self.given(self.p, self.pder, self.pder2)
+        yield from self.motion_equations(self.p, self.pder, self.pder2)
         yield self.flange.s == self.motion[0]
         yield self.f == -self.flange.f
 
