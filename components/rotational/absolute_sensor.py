@@ -9,7 +9,7 @@ from components.flange import Flange
 
 
 class AbsoluteSensor(Component):
-    """Base of sensors of a shaft end, which transmit no torque; a subclass defines the measured values."""
+    """Base of sensors at one shaft end, which transmit no torque; a subclass defines the measured values."""
 
     ends = ("flange", "flange")
     flange: Flange = port(Flange, "measured shaft end")

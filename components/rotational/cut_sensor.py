@@ -1,4 +1,4 @@
-"""CutSensor: base of sensors of a cut through a shaft."""
+"""CutSensor: base of sensors inserted into a shaft."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from components.flange import TwoFlanges
 
 
 class CutSensor(TwoFlanges):
-    """Base of sensors that a shaft is cut for; a subclass states what it measures."""
+    """Base of sensors inserted into a shaft; a subclass defines the measured values."""
 
     def equations(self):
         yield self.flange_a.phi == self.flange_b.phi

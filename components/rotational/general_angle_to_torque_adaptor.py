@@ -1,4 +1,4 @@
-"""GeneralAngleToTorqueAdaptor: signals of the motion move a flange, and its torque is a signal."""
+"""GeneralAngleToTorqueAdaptor: motion signals in, torque signal out."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from components.given_motion import GivenMotion
 
 
 class GeneralAngleToTorqueAdaptor(GivenMotion):
-    """Signals of angle, speed and acceleration move a flange, and its torque is a signal."""
+    """Prescribes the motion of a flange by signals of angle, speed and acceleration, and outputs its torque."""
 
     ends = ("flange", "flange")
     motion_units = ("rad", "rad/s", "rad/s2")
     use_pder: bool = structural("whether the speed is given", default=True, choices=(True, False))
     use_pder2: bool = structural("whether the acceleration is given as well", default=True, choices=(True, False))
-    flange: Flange = port(Flange, "shaft end that is moved")
+    flange: Flange = port(Flange, "shaft end with prescribed motion")
     p: Scalar = input("angle of the flange", unit="rad")
     pder: Scalar = input("speed of the flange", unit="rad/s", doc="0 if unused.")
     pder2: Scalar = input("acceleration of the flange", unit="rad/s2", doc="0 if unused.")
-    f: Scalar = output("torque that moves the flange, -flange.tau", unit="N.m")
+    f: Scalar = output("driving torque, -flange.tau", unit="N.m")
 
     def levels(self) -> int:
-        """Return how many of angle, speed and acceleration are given."""
+        """Return the number of signals: angle, speed and acceleration."""
         return 1 + self.use_pder * (1 + self.use_pder2)
 
     def equations(self):
@@ -30,5 +30,5 @@ class GeneralAngleToTorqueAdaptor(GivenMotion):
         yield self.f == -self.flange.tau
 
     def supplied_power(self):
-        """Power into the shaft, where the speed is given."""
+        """Power into the shaft, if the speed is given."""
         return self.f * self.pder

@@ -1,4 +1,4 @@
-"""LinearSpeedDependentTorque: a torque proportional to the speed."""
+"""LinearSpeedDependentTorque: torque proportional to the speed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Move: a drive that prescribes angle, speed and acceleration."""
+"""Move: drive with prescribed angle, speed and acceleration."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from components.rotational.one_flange import OneFlange
 
 
 class Move(GivenMotion, OneFlange):
-    """Drive that moves the shaft by signals of its angle, speed and acceleration, of which none is differentiated."""
+    """Drive that prescribes angle, speed and acceleration of the shaft by signals, without differentiating any of them."""
 
     motion_units = ("rad", "rad/s", "rad/s2")
     u: Any = input("angle, speed and acceleration relative to the support", unit=("rad", "rad/s", "rad/s2"), shape=(3,))

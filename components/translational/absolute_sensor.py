@@ -9,7 +9,7 @@ from components.translational.flange import TranslationalFlange
 
 
 class AbsoluteSensor(Component):
-    """Base of sensors of a rod end, which transmit no force; a subclass defines the measured values."""
+    """Base of sensors at one rod end, which transmit no force; a subclass defines the measured values."""
 
     ends = ("flange", "flange")
     flange: TranslationalFlange = port(TranslationalFlange, "measured rod end")

@@ -1,4 +1,4 @@
-"""LinearSpeedDependentForce: a force proportional to the speed."""
+"""LinearSpeedDependentForce: force proportional to the speed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Move: a drive that prescribes position, speed and acceleration."""
+"""Move: drive with prescribed position, speed and acceleration."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from components.translational.one_flange import OneFlange
 
 
 class Move(GivenMotion, OneFlange):
-    """Drive that moves the rod by signals of its position, speed and acceleration, of which none is differentiated."""
+    """Drive that prescribes position, speed and acceleration of the rod by signals, without differentiating any."""
 
     u: Any = input("position, speed and acceleration relative to the support", unit=("m", "m/s", "m/s2"), shape=(3,))
 

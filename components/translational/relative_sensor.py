@@ -20,5 +20,5 @@ class RelativeSensor(TwoFlanges):
         yield from self.measure()
 
     def measure(self) -> Any:
-        """Yield the equations of further measured values."""
+        """Yield the equations of additional measured values."""
         yield from ()

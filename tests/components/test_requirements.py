@@ -167,6 +167,6 @@ def test_friction_that_slides_with_more_than_it_sticks_is_refused():
         def connections(self):
             yield chain(self.wall.flange, self.brake, self.shaft.flange_a)
 
-    with pytest.raises(DeclarationError, match=r"`tau_sliding` of brake is more than its `tau_static`"):
+    with pytest.raises(DeclarationError, match=r"`tau_sliding` of brake exceeds `tau_static`"):
         ac.simulate(Braked(), stop_time=0.1, parameters={"brake.tau_sliding": 2.0})
     assert ac.simulate(Braked(), stop_time=0.1, parameters={"brake.tau_sliding": 1.3}).time[-1] == 0.1
