@@ -51,7 +51,7 @@ class FixedRotation(TwoFrames):
             raise DeclarationError("`n_x` and `n_y` are parallel; give n_y another direction, such as n_y=(0, 1, 0).")
         if self.rotation_type == "sequence" and not set(self.sequence) <= {1, 2, 3}:
             raise DeclarationError(
-                f"`sequence` is {tuple(self.sequence)}; its axes are 1, 2 or 3, such as sequence=(1, 2, 3)."
+                f"`sequence` is {tuple(self.sequence)}; give axes 1, 2 or 3, such as sequence=(1, 2, 3)."
             )
 
     def connections(self):

@@ -11,7 +11,7 @@ from components.world import require_direction
 
 
 class Universal(TwoFrames):
-    """Universal joint: frame_b turns relative to frame_a about n_a, then about n_b."""
+    """Universal joint: frame_b rotates relative to frame_a about n_a, then about n_b."""
 
     n_a: Any = structural("first axis, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length.")
     n_b: Any = structural("second axis, resolved in frame_b", default=(0, 1, 0), shape=(3,), doc="Any nonzero length.")

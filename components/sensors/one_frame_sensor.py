@@ -14,7 +14,7 @@ class OneFrameSensor(Component):
 
     ends = ("frame_a", "frame_a")
     resolve_in_frame: str = structural(
-        "where the vectors are resolved", default="frame_a", choices=("frame_a", "world", "frame_resolve")
+        "resolving frame of the vectors", default="frame_a", choices=("frame_a", "world", "frame_resolve")
     )
     frame_a: Frame = port(Frame, "measured frame")
 
@@ -44,5 +44,5 @@ class OneFrameSensor(Component):
 
 
 def resolved(vector: Any, resolving: Any) -> Any:
-    """Turn a vector resolved in the world into a frame, or leave it where that is None."""
+    """Transform a vector from the world to the frame `resolving`; None is the world."""
     return vector if resolving is None else resolve2(resolving.R, vector)

@@ -12,7 +12,9 @@ class TwoFrameSensor(TwoFrames):
     """Base of sensors between two frames, which transmit no load; a subclass defines the measured values."""
 
     resolve_in_frame: str = structural(
-        "where the vectors are resolved", default="frame_a", choices=("frame_a", "frame_b", "world", "frame_resolve")
+        "resolving frame of the vectors",
+        default="frame_a",
+        choices=("frame_a", "frame_b", "world", "frame_resolve"),
     )
 
     @port
