@@ -111,6 +111,6 @@ def point_gravity_validity(world: Any, m: Any, centre: Any, velocity: Any) -> It
             centre,
             dot(centre, velocity) / distance,
             m * world.mu / dot(centre, centre),
-            "it reaches the origin of the world, where point gravity is infinite. End the run before that, stop_time=..., "
+            "the body reaches the origin of the world, where point gravity is infinite. End the run before that, stop_time=..., "
             "or let the body miss it: v_0=fixed(...) perpendicular to the line to the origin",
         )
