@@ -48,9 +48,7 @@ class BodyCylinder(TwoFrameBody):
     def requirements(self):
         name = self._path or "BodyCylinder"
         yield require(self.length > 0, f"`r` of {name} has length 0; give its axis, r=(1, 0, 0)")
-        text = (
-            f"`inner_diameter` of {name} is not less than `diameter`; give the bore of the pipe, or 0 for a solid one"
-        )
+        text = f"`inner_diameter` of {name} is not less than `diameter`; give the bore of the pipe, or 0 for a bar"
         yield require(self.inner_diameter < self.diameter, text)
         yield from super().requirements()
 

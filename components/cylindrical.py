@@ -14,10 +14,7 @@ class Cylindrical(TwoFrames):
     """Cylindrical joint: frame_b slides along the axis n and rotates about it relative to frame_a."""
 
     n: Any = structural(
-        "axis of the cylinder, the same in frame_a and frame_b",
-        default=(1, 0, 0),
-        shape=(3,),
-        doc="Any nonzero length.",
+        "axis of the joint, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     s: Scalar = variable("distance from frame_a to frame_b along n", unit="m", select=PREFER)
     phi: Scalar = variable("angle from frame_a to frame_b", unit="rad", select=PREFER)

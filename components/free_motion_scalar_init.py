@@ -66,21 +66,19 @@ class FreeMotionScalarInit(TwoFrames):
         )
         for rate, value in ((v, r), (a, v), (angle_d, angle), (angle_dd, angle_d), (z, w)):
             yield rate == der(value)
-        yield from (
-            self._motion_from_coordinates(r, angle, w) if self.use_angle else self._coordinates_from_motion(r, angle, w)
-        )
+        yield from self._to_motion(r, angle, w) if self.use_angle else self._from_motion(r, angle, w)
         for frame in (self.frame_a, self.frame_b):
             yield frame.f == (0, 0, 0)
             yield frame.t == (0, 0, 0)
 
-    def _motion_from_coordinates(self, r: Any, angle: Any, w: Any) -> Any:
+    def _to_motion(self, r: Any, angle: Any, w: Any) -> Any:
         """Motion of frame_b from the coordinates."""
         axes = (np.eye(3)[int(axis) - 1] for axis in self.sequence_start)
         R = reduce(absolute_rotation, (planar_rotation(n, angle[k]) for k, n in enumerate(axes)))
         yield w == R.w
         yield from move(self.frame_a, self.frame_b, r, R)
 
-    def _coordinates_from_motion(self, r: Any, angle: Any, w: Any) -> Any:
+    def _from_motion(self, r: Any, angle: Any, w: Any) -> Any:
         """Coordinates from the motion of frame_b."""
         a, b = self.frame_a, self.frame_b
         yield r == resolve2(a.R, b.r_0 - a.r_0)

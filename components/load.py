@@ -18,7 +18,7 @@ class WorldLoad(Component):
 
     ends = ("frame_b", "frame_b")
     resolve_in_frame: str = structural(
-        "frame in which the load is resolved", default="world", choices=("world", "frame_b", "frame_resolve")
+        "resolving frame of the load", default="world", choices=("world", "frame_b", "frame_resolve")
     )
     frame_b: Frame = port(Frame, "point of application")
 
@@ -48,9 +48,7 @@ class FrameLoad(TwoFrames):
     """Base of loads between two frames, opposite on one line of action; a subclass defines load(), acting at frame_b."""
 
     resolve_in_frame: str = structural(
-        "frame in which the load is resolved",
-        default="frame_b",
-        choices=("frame_b", "frame_a", "world", "frame_resolve"),
+        "resolving frame of the load", default="frame_b", choices=("frame_b", "frame_a", "world", "frame_resolve")
     )
 
     @port

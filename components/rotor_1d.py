@@ -22,9 +22,7 @@ class Rotor1D(TwoFlanges):
     """
 
     J: Scalar = parameter("moment of inertia about n", unit="kg.m2", minimum=0)
-    n: Any = structural(
-        "axis of rotation, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
-    )
+    n: Any = structural("rotation axis, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length.")
     exact: bool = structural(
         "whether the angular acceleration of frame_a accelerates the rotor", default=True, choices=(True, False)
     )

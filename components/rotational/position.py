@@ -14,9 +14,7 @@ AF, BF = 1.3617, 0.6180
 class Position(OneFlange):
     """Drive that prescribes the angle of the shaft."""
 
-    phi_ref: Scalar = input(
-        "angle of the flange", unit="rad", doc="A jump of its second derivative is a jump of the torque."
-    )
+    phi_ref: Scalar = input("angle of the flange", unit="rad", doc="The torque jumps with its second derivative.")
     exact: bool = structural(
         "whether the flange follows phi_ref exactly",
         default=True,

@@ -16,7 +16,7 @@ class CutSensor(TwoFrames):
     """Base of sensors in a rigid connection of two frames; a subclass defines the measured values."""
 
     resolve_in_frame: str = structural(
-        "resolving frame of the vectors", default="frame_a", choices=("world", "frame_a", "frame_resolve")
+        "resolving frame of vectors", default="frame_a", choices=("world", "frame_a", "frame_resolve")
     )
     positive_sign: bool = structural(
         "whether the load at frame_a or that at frame_b is measured", default=True, choices=(True, False)

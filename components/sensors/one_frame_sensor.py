@@ -14,7 +14,7 @@ class OneFrameSensor(Component):
 
     ends = ("frame_a", "frame_a")
     resolve_in_frame: str = structural(
-        "resolving frame of the vectors", default="frame_a", choices=("frame_a", "world", "frame_resolve")
+        "resolving frame of vectors", default="frame_a", choices=("frame_a", "world", "frame_resolve")
     )
     frame_a: Frame = port(Frame, "measured frame")
 

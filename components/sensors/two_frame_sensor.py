@@ -12,9 +12,7 @@ class TwoFrameSensor(TwoFrames):
     """Base of sensors between two frames, which transmit no load; a subclass defines the measured values."""
 
     resolve_in_frame: str = structural(
-        "resolving frame of the vectors",
-        default="frame_a",
-        choices=("frame_a", "frame_b", "world", "frame_resolve"),
+        "resolving frame of vectors", default="frame_a", choices=("frame_a", "frame_b", "world", "frame_resolve")
     )
 
     @port

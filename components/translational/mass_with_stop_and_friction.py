@@ -20,8 +20,7 @@ from acausal import (
 from components.thermal.heat_loss import HeatLoss
 from components.translational.rigid import Rigid
 
-# Ratio of the largest sticking force to the sliding force at zero speed: above 1 against chattering (value of the Modelica
-# library).
+# Largest sticking force over the sliding force at zero speed: above 1 against chattering (value of the Modelica library).
 PEAK = 1.001
 
 
@@ -70,9 +69,7 @@ class MassWithStopAndFriction(HeatLoss, Rigid):
 
     def requirements(self):
         name = self._path or type(self).__name__
-        yield require(
-            self.smax - self.smin > self.L, f"the distance of the stops of {name} is not greater than its length L"
-        )
+        yield require(self.smax - self.smin > self.L, f"the stops of {name} are closer than its length L")
         for sense, stop, word in ((1, self.smax, "smax"), (-1, self.smin, "smin")):
             yield require(
                 sense * (stop - self.s) >= self.L / 2,

@@ -12,9 +12,7 @@ from components.translational.one_flange import OneFlange
 class Position(OneFlange):
     """Drive that prescribes the position of the rod."""
 
-    s_ref: Scalar = input(
-        "position of the flange", unit="m", doc="A jump of its second derivative is a jump of the force."
-    )
+    s_ref: Scalar = input("position of the flange", unit="m", doc="The force jumps with its second derivative.")
     exact: bool = structural(
         "whether the flange follows s_ref exactly",
         default=True,
