@@ -56,7 +56,7 @@ class Bushing(TriaxialSpring):
 
     def equations(self):
         yield from super().equations()
-        T, (_, g), (_, t_d) = self.turn(), self._gradient(), self._damped()
+        T, (_, g), (_, t_d) = self.rotation_matrix(), self._gradient(), self._damped()
         yield self.theta == rotation_vector(T)
         yield self.w_rel == T.T @ self.frame_b.R.w - self.frame_a.R.w
         yield self.t == rate(self.theta, g) + t_d
@@ -70,7 +70,7 @@ class Bushing(TriaxialSpring):
         yield require(self.damping, _not_dissipative)
 
     def validity(self):
-        T = self.turn()
+        T = self.rotation_matrix()
         elastic = self._gradient()[1]
         square = dot(elastic, elastic)
         yield expect(

@@ -99,14 +99,14 @@ class RollingWheelJoint(Component):
 
     def contact(self) -> tuple[Expr, Expr, Expr, Expr]:
         """Directions u, l and s, and the position of the point of contact from the centre, resolved in frame_a."""
-        u, upright = self.frame_a.R.T[:, 2], self._upright()
+        u, upright = self.frame_a.R.T[:, 2], self._cos_camber()
         l = as_expr((-u[2], 0, u[0])) / upright
         return u, l, cross(l, u), as_expr((-u[0], 0, -u[2])) / upright * self.radius
 
     def requirements(self):
         name = self._path or type(self).__name__
         yield require(
-            self._upright() > 0.02,
+            self._cos_camber() > 0.02,
             f"{name} lies flat at the start, where its rim has no lowest point; start it upright, for instance "
             "angles=fixed((0, 0, 0)), with y of its frame along the axis of the wheel, and z of the world upwards",
         )
@@ -115,7 +115,7 @@ class RollingWheelJoint(Component):
         u, w = self.frame_a.R.T[:, 2], self.frame_a.R.w
         yield apart(
             as_expr((u[0], u[2])),
-            u[1] * (w[2] * u[0] - w[0] * u[2]) / self._upright(),
+            u[1] * (w[2] * u[0] - w[0] * u[2]) / self._cos_camber(),
             self.f_n,
             "the wheel falls flat, where its rim has no lowest point. End the run before that, stop_time=..., or start at a "
             "higher speed",
@@ -132,7 +132,7 @@ class RollingWheelJoint(Component):
         half = self.radius / 20
         yield geometry.Cylinder(pose(self.frame_a), (0, -half, 0), (0, half, 0), 2 * self.radius)
 
-    def _upright(self) -> Expr:
+    def _cos_camber(self) -> Expr:
         """|u x e|, the cosine of the camber angle."""
         u = self.frame_a.R.T[:, 2]
         return sqrt(u[0] * u[0] + u[2] * u[2])

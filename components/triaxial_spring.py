@@ -39,14 +39,14 @@ class TriaxialSpring(HeatLoss, TwoFrames):
         yield self.f == f
         yield a.f == -self.f
         yield a.t == -t - cross(self.r_rel, self.f)
-        yield b.f == self.turn() @ self.f
-        yield b.t == self.turn() @ t
+        yield b.f == self.rotation_matrix() @ self.f
+        yield b.t == self.rotation_matrix() @ t
 
     def load(self) -> tuple[Any, Any]:
         """Force and torque at frame_b, resolved in frame_a."""
         return self._spring() + self.d * self.v_rel, np.zeros(3)
 
-    def turn(self) -> Any:
+    def rotation_matrix(self) -> Any:
         """Rotation matrix from frame_a to frame_b."""
         return self.frame_b.R.T @ self.frame_a.R.T.T
 

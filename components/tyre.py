@@ -149,7 +149,7 @@ class Tyre(HeatLoss):
     def requirements(self):
         name = self._path or type(self).__name__
         yield require(
-            self._upright() > UPRIGHT,
+            self._cos_camber() > UPRIGHT,
             f"the wheel of {name} starts inclined by more than 60 degrees; `n` is its axis, resolved in frame_a, and `up` the "
             "vertical, resolved in the world",
         )
@@ -159,7 +159,7 @@ class Tyre(HeatLoss):
         )
 
     def equations(self):
-        a, n, (e_x, e_y), slope = self.frame_a, unit_vector(self.n), self._directions(), self._upright()
+        a, n, (e_x, e_y), slope = self.frame_a, unit_vector(self.n), self._directions(), self._cos_camber()
         w = a.R.w + n * der(self.axis.phi) if self.use_axis_flange else a.R.w
         v = resolve1(a.R, a.v + cross(w, resolve2(a.R, self.arm)))
         force = self.f_x * e_x + self.f_y * e_y + self.f_z * self.e_z
@@ -188,8 +188,8 @@ class Tyre(HeatLoss):
         axis = self._axis()
         down = axis * dot(self.e_z, axis) - self.e_z
         yield self.e_z == normal / sqrt(dot(normal, normal))
-        yield self.radius == dot(self.e_z, self.frame_a.r_0 - point) / self._upright()
-        yield self.arm == self.radius / self._upright() * down
+        yield self.radius == dot(self.e_z, self.frame_a.r_0 - point) / self._cos_camber()
+        yield self.arm == self.radius / self._cos_camber() * down
         yield self.x == dot(e_1, self.frame_a.r_0 + self.arm)
         yield self.y == dot(e_2, self.frame_a.r_0 + self.arm)
         yield self.deflection == self.R_0 - self.radius
@@ -233,13 +233,13 @@ class Tyre(HeatLoss):
     def _axis(self) -> Expr:
         return resolve1(self.frame_a.R, unit_vector(self.n))
 
-    def _upright(self) -> Expr:
+    def _cos_camber(self) -> Expr:
         """Cosine of the inclination of the wheel from the normal of the ground."""
         across = cross(self.e_z, self._axis())
         return sqrt(dot(across, across))
 
     def _directions(self) -> tuple[Expr, Expr]:
-        e_x = cross(self.e_z, self._axis()) / self._upright()
+        e_x = cross(self.e_z, self._axis()) / self._cos_camber()
         return e_x, cross(self.e_z, e_x)
 
     def stored_energy(self):

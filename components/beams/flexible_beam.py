@@ -139,8 +139,8 @@ class FlexibleBeam(Beam):
     def _load(self, U: Any, t_a: Any, f_b: Any, t_b: Any) -> list[Any]:
         """Nodal forces of the loads on both ends, in N, conjugate to U."""
         load, strain = [as_expr(0.0)] * (3 * self.elements + 3), self._strain
-        load[2] = t_a[2] / self._l * strain.turning(U[2])
-        load[-3:] = [f_b[0], f_b[1], t_b[2] / self._l * strain.turning(U[-1])]
+        load[2] = t_a[2] / self._l * strain.angle_derivative(U[2])
+        load[-3:] = [f_b[0], f_b[1], t_b[2] / self._l * strain.angle_derivative(U[-1])]
         return load
 
     def _without_tip_load(self, force: Any, f_b: Any, t_b: Any, balance: Any, drag: Any, U: Any) -> tuple[Any, ...]:
@@ -156,7 +156,7 @@ class FlexibleBeam(Beam):
                 f[k], far[k] = balance[k - 3], as_expr(0.0)
                 rest[k] = balance[k] - sum(drag[k::3], as_expr(0.0))
         if 3 * self.elements + 2 in self._balanced:
-            t[2] = balance[-1] * (self._l / self._strain.turning(U[-1]))
+            t[2] = balance[-1] * (self._l / self._strain.angle_derivative(U[-1]))
         return as_expr(rest), as_expr(far), as_expr(t) + cross(self._end(U), as_expr(f))
 
     def initial_equations(self):

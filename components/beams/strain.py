@@ -132,7 +132,7 @@ class Strain:
         slope = turn / self.l
         return slope + slope * slope * slope / 6 if self.second_order else slope
 
-    def turning(self, turn: Any) -> Any:
+    def angle_derivative(self, turn: Any) -> Any:
         """Derivative of the angle with respect to the slope."""
         slope = turn / self.l
         return 1 + slope * slope / 2 if self.second_order else 1.0

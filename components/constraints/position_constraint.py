@@ -46,13 +46,13 @@ class PositionConstraint(TwoFrames):
             yield r_rel_a[k] == 0 if locked else a.f[k] == 0
         yield b.f == -resolve2(b.R, resolve1(a.R, a.f))
         yield a.t == cross(r_rel_a, a.f) - t_b_a
-        yield from self.turning(t_b_a)
+        yield from self.rotational_constraints(t_b_a)
 
     def resolved_in_a(self, v: Any) -> Any:
         """Transform a vector from frame_b to frame_a."""
         return resolve2(self.frame_a.R, resolve1(self.frame_b.R, v))
 
-    def turning(self, t_b_a: Any) -> Iterator[Any]:
+    def rotational_constraints(self, t_b_a: Any) -> Iterator[Any]:
         """Yield three equations of the relative orientation and of t_b_a, the torque at frame_b resolved in frame_a.
 
         The power of the constraint, t_b_a times the relative angular velocity, must be 0.

@@ -22,7 +22,7 @@ class Revolute(PositionConstraint):
         """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
-    def turning(self, t_b_a):
+    def rotational_constraints(self, t_b_a):
         n = unit_vector(self.n)
         for e in across(n):
             yield dot(e, self.resolved_in_a(n)) == 0

@@ -24,7 +24,7 @@ class Universal(PositionConstraint):
         if parallel(self.n_a, self.n_b):
             raise DeclarationError("`n_b` is parallel to `n_a`; give another axis, for instance n_b=(0, 1, 0).")
 
-    def turning(self, t_b_a):
+    def rotational_constraints(self, t_b_a):
         n_a, n_b = unit_vector(self.n_a), unit_vector(self.n_b)
         yield dot(n_a, self.resolved_in_a(n_b)) == float(n_a @ n_b)
         yield dot(n_a, t_b_a) == 0

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from acausal import Scalar, input, output, port, structural
 from components.flange import Flange
-from components.given_motion import GivenMotion
+from components.prescribed_motion import PrescribedMotion
 
 
-class AngleToTorqueAdaptor(GivenMotion):
+class AngleToTorqueAdaptor(PrescribedMotion):
     """Prescribes the motion of a flange by signals of angle, speed and acceleration, and outputs its torque."""
 
     ends = ("flange", "flange")

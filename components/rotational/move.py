@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from acausal import input
-from components.given_motion import GivenMotion
+from components.prescribed_motion import PrescribedMotion
 from components.rotational.one_flange import OneFlange
 
 
-class Move(GivenMotion, OneFlange):
+class Move(PrescribedMotion, OneFlange):
     """Drive that prescribes angle, speed and acceleration of the shaft by signals, without differentiating any of them."""
 
     motion_units = ("rad", "rad/s", "rad/s2")

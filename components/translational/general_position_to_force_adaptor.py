@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from acausal import Scalar, input, output, port, structural
-from components.given_motion import GivenMotion
+from components.prescribed_motion import PrescribedMotion
 from components.translational.flange import TranslationalFlange
 
 
-class GeneralPositionToForceAdaptor(GivenMotion):
+class GeneralPositionToForceAdaptor(PrescribedMotion):
     """Prescribes the motion of a flange by signals of position, speed and acceleration, and outputs its force."""
 
     ends = ("flange", "flange")

@@ -7,7 +7,7 @@ from typing import Any
 from acausal import Component, Scalar, chain, connect, parameter, part, port, structural
 from components import FixedTranslation, Frame
 from models.vehicle.corner import Corner
-from models.vehicle.points import way
+from models.vehicle.points import offset
 
 TIE = (-0.12, 0.25, 0.38)
 
@@ -19,7 +19,7 @@ class Axle(Component):
     v: Scalar = parameter("initial speed", unit="m/s", default=0)
     preload: Scalar = parameter("initial force of the struts", unit="N", default=3.6e3)
     frame_a, frame_tie = port(Frame, "fixed to the chassis"), port(Frame, "mounting of the tie rods")
-    tie_right, tie_left = (FixedTranslation(r=way((0, 0, 0), TIE, side)) for side in (1, -1))
+    tie_right, tie_left = (FixedTranslation(r=offset((0, 0, 0), TIE, side)) for side in (1, -1))
     right, left = (part(lambda s, side=side: s.corner(side)) for side in (1, -1))
 
     def corner(self, side: int) -> Corner:

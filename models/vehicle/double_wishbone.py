@@ -6,7 +6,7 @@ from acausal import Component, Scalar, chain, connect, parameter, part, port, st
 from components import FixedTranslation, Frame, Revolute, SphericalSpherical, SpringDamperParallel, Universal
 from components.constraints import Spherical
 from models.vehicle.arm import Arm
-from models.vehicle.points import length, point, way
+from models.vehicle.points import length, offset, point
 from models.vehicle.upright import Upright
 
 
@@ -45,7 +45,7 @@ class DoubleWishbone(Component):
 
     def to(self, end: str, start: str | None = None):
         """Return the vector to a point from another point, or from the origin of frame_a."""
-        return way(getattr(self, start) if start else (0, 0, 0), getattr(self, end), self.side)
+        return offset(getattr(self, start) if start else (0, 0, 0), getattr(self, end), self.side)
 
     def connections(self):
         yield chain(self.frame_a, self.lower, self.tilt, self.steer, self.upright, self.frame_b)

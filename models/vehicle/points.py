@@ -15,7 +15,7 @@ def point(description: str, *r: float) -> Any:
     return structural(f"{description}, resolved in frame_a, in m", default=r, shape=(3,), doc="On the left, z is -z.")
 
 
-def way(start: Any, end: Any, side: int) -> Vector:
+def offset(start: Any, end: Any, side: int) -> Vector:
     """Return the vector from one point to another, on the right (side 1) or on the left (-1)."""
     x, y, z = (float(b - a) for a, b in zip(start, end, strict=True))
     return x, y, side * z

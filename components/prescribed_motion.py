@@ -1,4 +1,4 @@
-"""GivenMotion: base of drives prescribed by position, speed and acceleration signals."""
+"""PrescribedMotion: base of drives prescribed by position, speed and acceleration signals."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from acausal import Component, variable
 
 
-class GivenMotion(Component):
+class PrescribedMotion(Component):
     """Base of drives prescribed by signals of position, speed and acceleration, without differentiating any of them.
 
     Notes
