@@ -1,4 +1,4 @@
-"""Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
+"""Machine components: joints, bodies, forces and drives; drive trains are in `components.rotational`."""
 
 from components import constraints, contact, rotational, sensors, thermal, translational
 from components.beams import FlexibleBeam, SubstructuredBeam

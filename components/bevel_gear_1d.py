@@ -1,4 +1,4 @@
-"""BevelGear1D: a gear between shafts of any direction on a moving body."""
+"""BevelGear1D: gear between two shafts of arbitrary direction on a moving body."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from components.world import require_direction
 
 
 class BevelGear1D(TwoFlanges):
-    """Gear without inertia between two shafts of any direction, whose bearing is fixed to frame_a."""
+    """Massless gear between two shafts of arbitrary direction, with its bearing fixed to frame_a."""
 
     ratio: Scalar = parameter("transmission ratio, flange_a.phi / flange_b.phi", unit="1")
     n_a: Any = structural(
-        "axis of flange_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of flange_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     n_b: Any = structural(
-        "axis of flange_b, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of flange_b, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     frame_a: Frame = port(Frame, "bearing")
 
     def check(self) -> None:
-        """Refuse axes of length 0."""
+        """Reject axes of length 0."""
         require_direction(self, self.n_a, "n_a")
         require_direction(self, self.n_b, "n_b")
 

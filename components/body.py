@@ -6,14 +6,14 @@ import numpy as np
 
 from acausal import Matrix33, Scalar, Vector3, cross, dot, effect, geometry, outer, parameter, port, require
 from components.frame import Frame, pose
-from components.moving_body import MovingBody, off_centre, past_centre
+from components.moving_body import MovingBody, point_gravity_requirements, point_gravity_validity
 from components.orientation import resolve1, resolve2
 from components.rigid import unusual_inertia, wrong_inertia
 from components.world import World
 
 
 class Body(MovingBody):
-    """Rigid body with mass, centre of mass and inertia; a body that nothing else guides moves freely.
+    """Rigid body with mass, centre of mass and inertia tensor; it moves freely unless joints guide it.
 
     Notes
     -----
@@ -27,14 +27,14 @@ class Body(MovingBody):
         "inertia tensor about the centre of mass",
         unit="kg.m2",
         default=np.zeros((3, 3)),
-        doc="Resolved in frame_a. It must have no negative principal moment; moments about axes that the body "
-        "does not turn about may be left 0.",
+        doc="Resolved in frame_a. No principal moment may be negative; moments about axes without rotation may "
+        "remain 0.",
     )
     gyroscopic: bool = effect(
         "gyroscopic torque w x I w",
         default=True,
-        doc="False is valid where w stays along a principal axis, or where that torque is small compared with the "
-        "others; in other motions energy is not conserved, as a turning body does not precess.",
+        doc="False is valid if w stays along a principal axis, or if this torque is small compared with the others. "
+        "Other motions then lack precession and do not conserve energy.",
     )
     world: World = outer(World)
 
@@ -58,10 +58,10 @@ class Body(MovingBody):
     def requirements(self):
         yield require(self.I, wrong_inertia)
         yield require(self.I, unusual_inertia, warning=True)
-        yield from off_centre(self, self.world, self._centre())
+        yield from point_gravity_requirements(self, self.world, self._centre())
 
     def validity(self):
-        yield from past_centre(self.world, self.m, self._centre(), self._velocity())
+        yield from point_gravity_validity(self.world, self.m, self._centre(), self._velocity())
 
     def initial_equations(self):
         yield from self.free_start(self.frame_a)
@@ -73,7 +73,7 @@ class Body(MovingBody):
         return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._centre())) + dot(w, self.I @ w) / 2
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         return self.world.power(self.m, self._centre(), self._velocity())
 
     def shapes(self):

@@ -1,4 +1,4 @@
-"""BodyBox: a rigid body with the shape of a box."""
+"""BodyBox: rigid body with the shape of a box."""
 
 from __future__ import annotations
 
@@ -24,34 +24,34 @@ from components.orientation import norm, outer_product
 from components.two_frame_body import TwoFrameBody
 from components.world import require_direction
 
-PARALLEL = 1e-6  # sine of an angle below which two directions are one
+PARALLEL = 1e-6  # sine of the angle between two directions that count as parallel: a smaller angle is a user error
 
 
 class BodyBox(TwoFrameBody):
-    """Box or pipe, by default from frame_a to frame_b; mass, centre of mass and inertia follow from size and density."""
+    """Box or rectangular pipe, by default from frame_a to frame_b; size and density determine its mass properties."""
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
-    r_shape: Vector3 = parameter("from frame_a to the beginning of the box", unit="m", default=(0, 0, 0))
+    r_shape: Vector3 = parameter("from frame_a to the start of the box", unit="m", default=(0, 0, 0))
     length_direction: Vector3 = parameter(
         "direction of the length, resolved in frame_a",
         unit="m",
         default=lambda s: s.r - s.r_shape,
-        doc="From r_shape to frame_b if not given; its entries that are 0 are structural.",
+        doc="From r_shape to frame_b if not given; entries equal to 0 are structural zeros.",
     )
     length: Scalar = parameter(
         "length", unit="m", default=lambda s: norm(s.r - s.r_shape), doc="From r_shape to frame_b if not given."
     )
     width: Scalar = parameter(
-        "width", unit="m", default=lambda s: s.length / 20, positive=True, doc="It lies along width_direction."
+        "width", unit="m", default=lambda s: s.length / 20, positive=True, doc="Measured along width_direction."
     )
     height: Scalar = parameter(
         "height",
         unit="m",
         default=lambda s: s.width,
         positive=True,
-        doc="It lies across the length and the width, and is equal to the width if not given.",
+        doc="Perpendicular to length and width; equal to the width if not given.",
     )
-    inner_width: Scalar = parameter("inner width", unit="m", default=0, minimum=0, doc="Not 0 for a pipe.")
+    inner_width: Scalar = parameter("inner width", unit="m", default=0, minimum=0, doc="Nonzero for a pipe.")
     inner_height: Scalar = parameter(
         "inner height",
         unit="m",
@@ -63,7 +63,7 @@ class BodyBox(TwoFrameBody):
     width_direction: Any = structural(
         "direction of the width, resolved in frame_a",
         default=None,
-        doc="Its part across the length counts; (0, 1, 0) if not given, or (1, 0, 0) if that lies along y.",
+        doc="Only its component normal to the length counts; (0, 1, 0) if not given, or (1, 0, 0) for a box along y.",
     )
     m: Scalar = parameter(
         "mass",
@@ -89,15 +89,15 @@ class BodyBox(TwoFrameBody):
         name = self._path or "BodyBox"
         yield require(self.length > 0, f"`r` of {name} has length 0; give the axis of the box, r=(1, 0, 0)")
         for inner, outer in (("inner_width", "width"), ("inner_height", "height")):
-            text = f"`{inner}` of {name} is not less than `{outer}`; give the size of the hole, or 0 if it has none"
+            text = f"`{inner}` of {name} is not less than `{outer}`; give the size of the hole, or 0 for a solid box"
             yield require(getattr(self, inner) < getattr(self, outer), text)
-        given = self._direction()
-        aside = cross(given, self.length_direction / norm(self.length_direction))
+        direction = self._width_direction()
+        aside = cross(direction, self.length_direction / norm(self.length_direction))
         text = (
-            f"`width_direction` of {name} lies along `r`, or `length_direction`, and names no side of the box; "
-            "give a direction across, such as width_direction=(0, 1, 0) for r=(1, 0, 0)"
+            f"`width_direction` of {name} is parallel to `r` or `length_direction`, so the orientation of the box is "
+            "undefined; give a perpendicular direction, such as width_direction=(0, 1, 0) for r=(1, 0, 0)"
         )
-        yield require(dot(aside, aside) > PARALLEL**2 * float(np.dot(given, given)), text)
+        yield require(dot(aside, aside) > PARALLEL**2 * float(np.dot(direction, direction)), text)
         yield from super().requirements()
 
     def shapes(self):
@@ -113,13 +113,13 @@ class BodyBox(TwoFrameBody):
         """Directions of length, width and height, resolved in frame_a."""
         if all(entry.sx.is_zero() for entry in self.length_direction):
             raise DeclarationError("`r` has length 0; give the axis of the box, r=(1, 0, 0).")
-        given, along = self._direction(), self.length_direction / norm(self.length_direction)
-        across = as_expr(given) - dot(given, along) * along
+        direction, along = self._width_direction(), self.length_direction / norm(self.length_direction)
+        across = as_expr(direction) - dot(direction, along) * along
         across = across / norm(across)
         return along, across, cross(along, across)
 
-    def _direction(self) -> tuple[float, ...]:
-        """Direction of the width as given, or y, or x for a box along y."""
+    def _width_direction(self) -> tuple[float, ...]:
+        """Return the specified direction of the width; default y, or x for a box along y."""
         given = self.width_direction
         if given is not None:
             array = np.asarray(given)

@@ -1,4 +1,4 @@
-"""BodyCylinder: a rigid body with the shape of a cylinder or a pipe."""
+"""BodyCylinder: rigid body with the shape of a cylinder or a pipe."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from components.two_frame_body import TwoFrameBody
 
 
 class BodyCylinder(TwoFrameBody):
-    """Cylinder or pipe, by default from frame_a to frame_b; mass, centre of mass and inertia follow from size and density."""
+    """Cylinder or pipe, by default from frame_a to frame_b; size and density determine its mass properties."""
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
-    r_shape: Vector3 = parameter("from frame_a to the beginning of the cylinder", unit="m", default=(0, 0, 0))
+    r_shape: Vector3 = parameter("from frame_a to the start of the cylinder", unit="m", default=(0, 0, 0))
     length_direction: Vector3 = parameter(
         "direction of the axis, resolved in frame_a",
         unit="m",
         default=lambda s: s.r - s.r_shape,
-        doc="From r_shape to frame_b if not given; its entries that are 0 are structural.",
+        doc="From r_shape to frame_b if not given; entries equal to 0 are structural zeros.",
     )
     length: Scalar = parameter(
         "length", unit="m", default=lambda s: norm(s.r - s.r_shape), doc="From r_shape to frame_b if not given."
     )
     diameter: Scalar = parameter("outer diameter", unit="m", default=lambda s: s.length / 20, positive=True)
-    inner_diameter: Scalar = parameter("inner diameter", unit="m", default=0, minimum=0, doc="Not 0 for a pipe.")
+    inner_diameter: Scalar = parameter("inner diameter", unit="m", default=0, minimum=0, doc="Nonzero for a pipe.")
     density: Scalar = parameter("density", unit="kg/m3", default=7700, minimum=0)
     m: Scalar = parameter(
         "mass", unit="kg", default=lambda s: s.cylinder_mass(), minimum=0, doc="That of the cylinder if not given."
@@ -48,16 +48,16 @@ class BodyCylinder(TwoFrameBody):
     def requirements(self):
         name = self._path or "BodyCylinder"
         yield require(self.length > 0, f"`r` of {name} has length 0; give its axis, r=(1, 0, 0)")
-        text = f"`inner_diameter` of {name} is not less than `diameter`; give the bore of the pipe, or 0 if it has none"
+        text = f"`inner_diameter` of {name} is not less than `diameter`; give the bore of the pipe, or 0 for a bar"
         yield require(self.inner_diameter < self.diameter, text)
         yield from super().requirements()
 
     def shapes(self):
-        """The cylinder; it hides the bore of a pipe."""
+        """The cylinder, drawn without the bore of a pipe."""
         yield geometry.Cylinder(pose(self.frame_a), self.r_shape, self.r_shape + self.axis(), self.diameter)
 
     def axis(self) -> Any:
-        """From one end to the other, resolved in frame_a, in m."""
+        """Vector from one end to the other, resolved in frame_a, in m."""
         return self.length_direction * (self.length / norm(self.length_direction))
 
     def cylinder_mass(self) -> Any:

@@ -1,4 +1,4 @@
-"""BodyRod: a thin uniform rod."""
+"""BodyRod: thin uniform rod."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from components.two_frame_body import TwoFrameBody
 
 
 class BodyRod(TwoFrameBody):
-    """Thin uniform rod along r: m r^2 / 12 across it, no moment of inertia about its own axis."""
+    """Thin uniform rod along r: moment of inertia m r^2 / 12 about the transverse axes, 0 about its own axis."""
 
-    r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m", doc="It is the axis of the rod.")
+    r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m", doc="Axis of the rod.")
     m: Scalar = parameter("mass", unit="kg", minimum=0)
     r_CM: Vector3 = parameter(
         "centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2, doc="That of the rod if not given."

@@ -1,4 +1,4 @@
-"""BodyShape: a rigid body with two frames."""
+"""BodyShape: rigid body with two frames."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from components.two_frame_body import TwoFrameBody
 
 
 class BodyShape(TwoFrameBody):
-    """Rigid body with mass and inertia, and with frame_b at r from frame_a."""
+    """Rigid body with mass and inertia tensor, and with frame_b at r from frame_a."""
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
     m: Scalar = parameter("mass", unit="kg", minimum=0)

@@ -11,20 +11,20 @@ from components.world import require_direction
 
 
 class ConstantVelocityJoint(TwoFrames):
-    """Constant-velocity joint: frame_b bends away from frame_a in any direction, and turns about n as frame_a does.
+    """Constant-velocity joint: frame_b inclines to frame_a in any direction and spins about n at the speed of frame_a.
 
     Notes
     -----
-    Frame_b is turned from frame_a about an axis at right angles to n, by less than a half turn. The plane in which the
-    joint transmits the spin of the shafts halves the angle between them, so that both turn at one speed, whatever
-    that angle. The torque of frame_b has no part that bends the joint: it lies along the bisector of both shafts.
+    Frame_b is rotated relative to frame_a about an axis perpendicular to n, by less than half a turn. The plane that
+    transmits the rotation bisects the angle between the shafts (homokinetic plane), so that both speeds are equal at any
+    angle. The torque at frame_b has no bending component: it is parallel to the bisector of both shafts.
     """
 
     n: Any = structural(
-        "axis of the shafts, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of the shafts, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     theta: Any = variable(
-        "rotation vector across n, of length 2 tan(angle / 2), along two directions at right angles",
+        "rotation vector of length 2 tan(angle / 2), along two perpendicular directions normal to n",
         unit="rad",
         shape=(2,),
         select=PREFER,
@@ -33,7 +33,7 @@ class ConstantVelocityJoint(TwoFrames):
     a: Any = variable("der(w)", unit="rad/s2", shape=(2,))
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def connections(self):

@@ -11,10 +11,10 @@ from components.world import require_direction
 
 
 class Cylindrical(TwoFrames):
-    """Cylindrical joint: frame_b slides along and turns about the axis n relative to frame_a."""
+    """Cylindrical joint: frame_b slides along the axis n and rotates about it relative to frame_a."""
 
     n: Any = structural(
-        "axis of the cylinder, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of the joint, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     s: Scalar = variable("distance from frame_a to frame_b along n", unit="m", select=PREFER)
     phi: Scalar = variable("angle from frame_a to frame_b", unit="rad", select=PREFER)
@@ -24,7 +24,7 @@ class Cylindrical(TwoFrames):
     wd: Scalar = variable("der(w)", unit="rad/s2")
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def connections(self):

@@ -1,4 +1,4 @@
-"""Damper: a linear damper between two frames."""
+"""Damper: linear damper between two frames."""
 
 from __future__ import annotations
 

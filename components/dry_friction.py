@@ -8,36 +8,41 @@ from typing import Any
 from acausal import Expr, Scalar, der, discrete, piecewise, reinit, set_valued, when
 from components.thermal.heat_loss import HeatLoss
 
+# Descriptions of the discrete variables that a subclass declares with its own units.
+MODE = "1 sliding forward, 0 sticking, -1 sliding backward"
+STUCK = "sliding speed at the last transition, 0 up to rounding"
+SLIP = "change of the sliding speed that ends a redundant rest"
+
 
 class DryFriction(HeatLoss):
-    """Base of dry friction: sticks up to one load, slides against another.
+    """Base of dry friction: sticks up to the load `holding()`, slides against the load `dragging()`.
 
-    While it sticks, the load is what keeps the sliding speed constant; it breaks away where that exceeds `holding()`. Where the
-    load does not change the acceleration, as at a joint that the rest of a machine carries through rest, it slides on the other
-    way. Where others keep it at rest already, its load is a share of `holding()`.
+    During sticking the load keeps the sliding speed constant. Sliding starts when that load exceeds `holding()`. If the load
+    has no effect on the acceleration, as in a joint that the mechanism drives through rest, the sliding direction reverses
+    without sticking. If other parts already hold the contact at rest (redundant rest), the load is a share of `holding()`.
     """
 
-    mode: Scalar = discrete("1 slides forward, 0 sticks, -1 slides backward", unit="1")
-    shared: Scalar = discrete("1 where others keep it at rest", unit="1")
-    share: Scalar = discrete("load over holding() where others keep it at rest", unit="1")
+    mode: Scalar = discrete(MODE, unit="1")
+    shared: Scalar = discrete("1 at a redundant rest", unit="1")
+    share: Scalar = discrete("load over holding() at a redundant rest", unit="1")
 
     def stick_slip(self, speed: Expr, load: Expr, inertia: Expr, stuck: Expr, slip: Expr) -> Iterator[Any]:
-        """Acceleration 0 or load of sliding, and when one becomes the other.
+        """Yield the friction law, der(speed) = 0 or the sliding load, and the transitions between both.
 
         Parameters
         ----------
         speed, load : Expr
-            Sliding speed, and what resists it; their product is the power of the loss.
+            Sliding speed and the load against it; their product is the lost power.
         inertia : Expr
-            One of its unit, so that both cases are loads.
+            Unit inertia, which gives both cases the unit of a load.
         stuck, slip : Expr
-            Discrete variables: the speed when it last stuck or broke away, 0 but for rounding, and the change of the speed at
-            which it no longer rests where others keep it at rest.
+            Discrete variables: the speed at the last transition, 0 up to rounding, and the change of the speed that ends a
+            redundant rest.
         """
         rests = (self.mode > -0.5) & (self.mode < 0.5)
         sticks, shares = rests & (self.shared < 0.5), rests & (self.shared > 0.5)
-        given = self.mode * self.dragging() + self.share * self.holding()
-        yield piecewise((inertia * der(speed), sticks), load - given) == 0
+        applied = self.mode * self.dragging() + self.share * self.holding()
+        yield piecewise((inertia * der(speed), sticks), load - applied) == 0
         yield set_valued(
             speed, limit=self.holding(), mode=self.mode, offset=stuck, shared=self.shared, share=self.share, slip=slip
         )
@@ -50,9 +55,9 @@ class DryFriction(HeatLoss):
             yield when((sense * self.mode > 0.5) & (moves < 0), *stops)
 
     def holding(self) -> Expr:
-        """Greatest load at which it sticks."""
-        raise NotImplementedError("returns the greatest load at which it sticks", "return ...")
+        """Largest load of sticking."""
+        raise NotImplementedError("returns the largest load of sticking", "return ...")
 
     def dragging(self) -> Expr:
-        """Load against sliding."""
-        raise NotImplementedError("returns the load against sliding", "return ...")
+        """Load of sliding."""
+        raise NotImplementedError("returns the load of sliding", "return ...")

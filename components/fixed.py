@@ -1,4 +1,4 @@
-"""Fixed: a frame that stands still in the world."""
+"""Fixed: frame fixed in the world."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from components.frame import Frame, pose
 
 
 class Fixed(Component):
-    """Frame_b stands still at r, with the axes of the world."""
+    """Frame_b is fixed at r, with the axes of the world."""
 
     ends = ("", "frame_b")
     r: Vector3 = parameter("position of frame_b, resolved in the world", unit="m", default=(0, 0, 0))
@@ -28,5 +28,5 @@ class Fixed(Component):
         yield frame.z == zero
 
     def shapes(self):
-        """A point of support."""
+        """A support point."""
         yield geometry.Sphere(pose(self.frame_b))

@@ -1,4 +1,4 @@
-"""FixedTranslation: a massless rod between two frames."""
+"""FixedTranslation: rigid massless rod between two frames."""
 
 from __future__ import annotations
 

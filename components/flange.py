@@ -1,4 +1,4 @@
-"""Flange: the connector of one-dimensional rotation."""
+"""Flange: connector of one-dimensional rotation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from acausal import Component, Connector, Scalar, flow, port, variable
 
 
 class Flange(Connector):
-    """Shaft end of one-dimensional rotation."""
+    """Shaft end in one-dimensional rotation."""
 
     domain: ClassVar[str] = "rotational"
     phi: Scalar = variable("absolute angle", unit="rad")

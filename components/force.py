@@ -1,4 +1,4 @@
-"""Force: a force between two frames."""
+"""Force: force between two frames."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from components.load import NONE, FrameLoad
 
 
 class Force(FrameLoad):
-    """Force that acts at the origin of frame_b, and in the opposite sense, on the same line, on frame_a."""
+    """Force at the origin of frame_b; the opposite force acts on frame_a along the same line of action."""
 
     force: Vector3 = input("force at frame_b, resolved in resolve_in_frame", unit="N")
 
     def load(self):
-        """Force alone."""
+        """Force without torque."""
         return self.force, NONE
 
     def shapes(self):
-        """The force, and what it is in frame_a."""
+        """The force, and its reaction at frame_a."""
         yield from (force_arrow(self.frame_b), force_arrow(self.frame_a), torque_arrow(self.frame_a))

@@ -1,4 +1,4 @@
-"""ForceAndTorque: a force and a torque between two frames."""
+"""ForceAndTorque: force and torque between two frames."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from components.load import FrameLoad
 
 
 class ForceAndTorque(FrameLoad):
-    """Force and torque that act at frame_b, and in the opposite sense, on the same line, on frame_a."""
+    """Force and torque at frame_b; the opposite load acts on frame_a along the same line of action."""
 
     force: Vector3 = input("force at frame_b, resolved in resolve_in_frame", unit="N")
     torque: Vector3 = input("torque at frame_b, resolved in resolve_in_frame", unit="N.m")

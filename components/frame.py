@@ -1,4 +1,4 @@
-"""Frame: the connector of mechanics in three dimensions, and move(), which relates two of them."""
+"""Frame: connector of three-dimensional mechanics, and move(), the motion of one frame relative to another."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from components.orientation import (
 
 
 class Frame(Connector):
-    """Coordinate system fixed to a body, with its motion at all levels and the cut force and torque.
+    """Coordinate system fixed to a body, with position, velocity and acceleration, and the cut force and torque.
 
-    Velocities and accelerations are those of the origin relative to the world, resolved in this frame.
+    Velocities and accelerations are relative to the world and resolved in this frame.
     """
 
     domain: ClassVar[str] = "multibody"
@@ -44,7 +44,7 @@ class Frame(Connector):
         "R.w": "w_a=fixed(...)",
         "Q": "angles_fixed=True",
     }
-    turns: bool = structural("whether a frame that nothing guides turns", default=True, choices=(True, False))
+    turns: bool = structural("whether a free frame rotates", default=True, choices=(True, False))
     r_0: Vector3 = variable("position of the origin, resolved in the world", unit="m")
     R: Any = Orientation()
     v: Vector3 = variable("velocity of the origin, resolved in this frame", unit="m/s")
@@ -55,29 +55,29 @@ class Frame(Connector):
     Q: Any = variable("quaternion of a free frame", unit="1", shape=(4,), start=(0, 0, 0, 1), root=True)
 
     def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
-        """Motion of a rigid frame, resolved in its own axes."""
+        """Rigid-body kinematics, resolved in this frame."""
         yield self.r_0, resolve1(self.R, self.v)
         yield self.R.T, -skew(self.R.w) @ self.R.T
         yield self.v, self.a - cross(self.R.w, self.v)
         yield self.R.w, self.z
 
     def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
-        """Equal position, and no turn of one frame from the other."""
+        """Closure equations: equal positions and orientations, with their reactions."""
         yield self.r_0 == other.r_0, resolve1(self.R, self.f)
         yield turn_between(self, other) == as_expr(np.zeros(3)), self.t
 
     def power(self) -> Iterator[tuple[Any, Any]]:
-        """Force times velocity and torque times angular velocity."""
+        """Conjugate pairs: force and velocity, torque and angular velocity."""
         yield self.v, self.f
         yield self.R.w, self.t
 
     def loop_kind(self, undetermined: tuple[str, ...]) -> str:
-        """Planar: a force across the plane and the torques in it; spherical: the forces alone."""
+        """Name a loop by its undetermined reactions: planar, one force and two torques; spherical, three forces."""
         kinds = [name.rpartition(".")[2][0] for name in undetermined]
         return {"ftt": "planar loop", "fff": "spherical loop"}.get("".join(sorted(kinds)), "loop")
 
     def root_equations(self) -> Iterator[Any]:
-        """Quaternion of a free frame, or the axes of the world."""
+        """Orientation by the quaternion of a free frame, or the axes of the world."""
         if self.turns:
             yield self.R.T == from_quaternion(self.Q).T
             yield from quaternion_equations(self.Q, self.R.w)
@@ -94,7 +94,7 @@ class TwoFrames(Component):
     frame_b: Frame = port(Frame, "coordinate system at the second end")
 
     def shapes(self):
-        """Its parts, or a thin rod where none of them has a frame."""
+        """The parts, or a thin rod if no part has a frame."""
         parts = list(super().shapes())
         yield from parts
         if not any(isinstance(end, Frame) for part in parts for end in part._ports):
@@ -102,48 +102,48 @@ class TwoFrames(Component):
 
 
 def turn_between(frame_a: Any, frame_b: Any) -> Any:
-    """Rotation vector n tan(angle / 2) of frame_b from frame_a, the same in both, which is 0 where they are parallel alone."""
+    """Rotation vector n tan(angle / 2) from frame_a to frame_b, equal in both frames; 0 for parallel frames only."""
     T = frame_b.R.T @ frame_a.R.T.T
     return as_expr((T[1, 2] - T[2, 1], T[2, 0] - T[0, 2], T[0, 1] - T[1, 0])) / (1 + T[0, 0] + T[1, 1] + T[2, 2])
 
 
 def pose(frame: Any) -> geometry.Pose:
-    """Where shapes that are fixed to a frame are."""
+    """Position and orientation of shapes fixed to a frame."""
     return geometry.Pose(frame.r_0, frame.R.T)
 
 
 def force_arrow(frame: Any) -> geometry.Arrow:
-    """Force that a component exerts at a frame of its own on what is connected there."""
+    """Force of a component on the parts connected to its frame."""
     return geometry.Arrow(frame.r_0, -resolve1(frame.R, frame.f))
 
 
 def torque_arrow(frame: Any) -> geometry.Arrow:
-    """Torque that a component exerts at a frame of its own on what is connected there."""
+    """Torque of a component on the parts connected to its frame."""
     return geometry.Arrow(frame.r_0, -resolve1(frame.R, frame.t), "torque")
 
 
 def move(frame_a: Any, frame_b: Any, r: Any, R: Any, offset: Any = None) -> Iterator[Any]:
-    """Equations of all levels of motion of frame_b relative to frame_a, written away from the root.
+    """Equations of position, velocity and acceleration between two frames, directed away from the root.
 
     Parameters
     ----------
     frame_a, frame_b : Frame
-        The two frames, joined by a branch().
+        The two frames, related by a branch().
     r : Expr or array, shape (3,)
         Position of frame_b relative to frame_a, resolved in frame_a, in m.
     R : RelativeOrientation
         Orientation of frame_b relative to frame_a.
     offset : Expr, shape (3,), optional
-        Displacement of frame_b, resolved in frame_a, in m, so slow that it counts in the position alone.
+        Quasi-static displacement of frame_b, resolved in frame_a, in m; enters the position only.
 
     Notes
     -----
-    With dr, ddr the derivatives of r seen from frame_a and T, w those of R:
+    With dr, ddr the derivatives of r in frame_a, and T, w the rotation matrix and angular velocity of R:
     v_b = T (v_a + w_a x r + dr), z_b = T z_a + der(w) + (T w_a) x w,
     a_b = T (a_a + z_a x r + w_a x (w_a x r) + 2 w_a x dr + ddr).
-    Where frame_b is nearer to the root, the same is solved for the motion of frame_a. The motion of frame_a relative to
-    frame_b would hold products of T and r, whose derivatives take as many operations again where these depend on many
-    coordinates.
+    If frame_b is closer to the root, these equations are solved for the motion of frame_a. Formulating the motion of frame_a
+    relative to frame_b instead would differentiate products of T and r, which doubles the operations if both depend on
+    many coordinates.
     """
     a, b, w_a, dr = frame_a, frame_b, frame_a.R.w, _der(r)
     shifted = r if offset is None else r + offset

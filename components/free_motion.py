@@ -1,4 +1,4 @@
-"""FreeMotion: no guidance, the relative motion as states."""
+"""FreeMotion: joint with six degrees of freedom."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from components.spherical import Spherical
 
 
 class FreeMotion(Spherical):
-    """Frame_b moves freely relative to frame_a; this motion is the state.
+    """Joint with six degrees of freedom: the motion of frame_b relative to frame_a is the state.
 
     Notes
     -----
-    The states are r_rel_a, v_rel_a, a quaternion, which has no singular position, and w_rel.
+    The states are r_rel_a, v_rel_a, a quaternion, which has no singular orientation, and w_rel.
     """
 
-    r_rel_a: Vector3 = variable("position of frame_b from frame_a, resolved in frame_a", unit="m", select=PREFER)
+    r_rel_a: Vector3 = variable("position of frame_b relative to frame_a, resolved in frame_a", unit="m", select=PREFER)
     v_rel_a: Vector3 = variable("der(r_rel_a)", unit="m/s", select=PREFER)
     a_rel_a: Vector3 = variable("der(v_rel_a)", unit="m/s2")
 
@@ -33,5 +33,5 @@ class FreeMotion(Spherical):
             yield frame.t == (0, 0, 0)
 
     def shapes(self):
-        """Nothing: it is no body."""
+        """No shape: the part has no size."""
         yield from ()

@@ -1,4 +1,4 @@
-"""FreeMotionScalarInit: no guidance, started by any set of coordinates."""
+"""FreeMotionScalarInit: joint with six degrees of freedom and scalar start values."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from components.sensors.angles import axes_angles
 
 
 class FreeMotionScalarInit(TwoFrames):
-    """Frame_b moves freely relative to frame_a; each coordinate of this motion takes a start value of its own.
+    """Joint with six degrees of freedom: each coordinate of frame_b relative to frame_a has its own start value.
 
     Notes
     -----
-    With use_angle=True the three angles are the state, which has a singular position where the first and the third axis lie
-    on one line. Otherwise that of the body at frame_b is, and the angles follow from it.
+    With use_angle=True the three angles are states, which are singular when the first and the third axis are parallel.
+    Otherwise the orientation of the body at frame_b is the state and determines the angles.
     """
 
-    use_angle: bool = structural("whether the angles are the state", default=False, choices=(True, False))
+    use_angle: bool = structural("whether the angles are states", default=False, choices=(True, False))
     sequence_start: Any = structural(
-        "axes of the angles",
+        "rotation axes of the angles",
         default=(1, 2, 3),
         shape=(3,),
         choices=(1, 2, 3),
-        doc="About the turned axes, none twice in a row.",
+        doc="Rotated axes; no axis twice in a row.",
     )
     r_rel_a_1: Scalar = variable("x of frame_b, resolved in frame_a", unit="m", select=PREFER)
     r_rel_a_2: Scalar = variable("y of frame_b, resolved in frame_a", unit="m", select=PREFER)
@@ -48,9 +48,9 @@ class FreeMotionScalarInit(TwoFrames):
     angle_dd_1: Scalar = variable("der(angle_d_1)", unit="rad/s2")
     angle_dd_2: Scalar = variable("der(angle_d_2)", unit="rad/s2")
     angle_dd_3: Scalar = variable("der(angle_d_3)", unit="rad/s2")
-    w_rel_b_1: Scalar = variable("angular velocity from frame_a about x of frame_b", unit="rad/s")
-    w_rel_b_2: Scalar = variable("angular velocity from frame_a about y of frame_b", unit="rad/s")
-    w_rel_b_3: Scalar = variable("angular velocity from frame_a about z of frame_b", unit="rad/s")
+    w_rel_b_1: Scalar = variable("relative angular velocity about x of frame_b", unit="rad/s")
+    w_rel_b_2: Scalar = variable("relative angular velocity about y of frame_b", unit="rad/s")
+    w_rel_b_3: Scalar = variable("relative angular velocity about z of frame_b", unit="rad/s")
     z_rel_b_1: Scalar = variable("der(w_rel_b_1)", unit="rad/s2")
     z_rel_b_2: Scalar = variable("der(w_rel_b_2)", unit="rad/s2")
     z_rel_b_3: Scalar = variable("der(w_rel_b_3)", unit="rad/s2")
@@ -66,25 +66,25 @@ class FreeMotionScalarInit(TwoFrames):
         )
         for rate, value in ((v, r), (a, v), (angle_d, angle), (angle_dd, angle_d), (z, w)):
             yield rate == der(value)
-        yield from self._turned(r, angle, w) if self.use_angle else self._seen(r, angle, w)
+        yield from self._to_motion(r, angle, w) if self.use_angle else self._from_motion(r, angle, w)
         for frame in (self.frame_a, self.frame_b):
             yield frame.f == (0, 0, 0)
             yield frame.t == (0, 0, 0)
 
-    def _turned(self, r: Any, angle: Any, w: Any) -> Any:
-        """Motion of frame_b by the coordinates."""
+    def _to_motion(self, r: Any, angle: Any, w: Any) -> Any:
+        """Motion of frame_b from the coordinates."""
         axes = (np.eye(3)[int(axis) - 1] for axis in self.sequence_start)
         R = reduce(absolute_rotation, (planar_rotation(n, angle[k]) for k, n in enumerate(axes)))
         yield w == R.w
         yield from move(self.frame_a, self.frame_b, r, R)
 
-    def _seen(self, r: Any, angle: Any, w: Any) -> Any:
-        """Coordinates by the motion of frame_b."""
+    def _from_motion(self, r: Any, angle: Any, w: Any) -> Any:
+        """Coordinates from the motion of frame_b."""
         a, b = self.frame_a, self.frame_b
         yield r == resolve2(a.R, b.r_0 - a.r_0)
         yield angle == axes_angles(b.R.T @ a.R.T.T, self.sequence_start)
         yield w == b.R.w - resolve2(b.R, resolve1(a.R, a.R.w))
 
     def shapes(self):
-        """Nothing: it is no body."""
+        """No shape: the part has no size."""
         yield from ()

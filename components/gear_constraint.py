@@ -1,4 +1,4 @@
-"""GearConstraint: a gear between two bodies in one bearing."""
+"""GearConstraint: gear between two bodies in one bearing."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from components.rotational.ideal_gear import IdealGear
 
 
 class GearConstraint(Component):
-    """Gear without inertia: frame_a and frame_b turn in a bearing, the angle of frame_a `ratio` times that of frame_b."""
+    """Massless gear: frame_a and frame_b rotate in a bearing, the angle of frame_a is `ratio` times that of frame_b."""
 
     ends = ("frame_a", "frame_b")
     ratio: Scalar = parameter("transmission ratio, angle of frame_a over that of frame_b", unit="1")
     n_a: Any = structural(
-        "axis of frame_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of frame_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     n_b: Any = structural(
-        "axis of frame_b, resolved in frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of frame_b, resolved in frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     r_a: Vector3 = parameter("from the bearing to frame_a, resolved in the bearing", unit="m", default=(0, 0, 0))
     r_b: Vector3 = parameter("from the bearing to frame_b, resolved in the bearing", unit="m", default=(0, 0, 0))
-    frame_a: Frame = port(Frame, "first turning body")
-    frame_b: Frame = port(Frame, "second turning body")
-    bearing: Frame = port(Frame, "body that holds both")
+    frame_a: Frame = port(Frame, "first rotating body")
+    frame_b: Frame = port(Frame, "second rotating body")
+    bearing: Frame = port(Frame, "housing of both")
     phi_b: Scalar = variable("angle from the bearing to frame_b", unit="rad", select=PREFER)
     w_b: Scalar = variable("der(phi_b)", unit="rad/s", select=PREFER)
     a_b: Scalar = variable("der(w_b)", unit="rad/s2")

@@ -1,4 +1,4 @@
-"""Derivative of an expression by a variable."""
+"""Derivative of an expression with respect to a variable."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from acausal import Expr
 
 
 def gradient(value: Expr, of: Expr) -> Expr:
-    """Derivative of a scalar or vector by a scalar or vector, shape (*value.shape, *of.shape).
+    """Derivative of a scalar or vector with respect to a scalar or vector, shape (*value.shape, *of.shape).
 
     Parameters
     ----------
     value : Expr
-        Made of the entries of `of`.
+        Function of the entries of `of`.
     of : Expr
         Variable of a component.
     """

@@ -1,4 +1,4 @@
-"""LineForceLaw: a line force that is a function of its length and speed."""
+"""LineForceLaw: line force as a function of length and speed."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class LineForceLaw(HeatLoss, LineForce):
-    """Force along the line from frame_a to frame_b, given as a function of its length and speed.
+    """Force along the line from frame_a to frame_b as a function of its length and rate of extension.
 
     Notes
     -----
-    f = f_0 + force(s, v). The part force(s, v) - force(s, 0) counts as a damper, force(s, 0) as a spring.
+    f = f_0 + force(s, v), with the spring force(s, 0) and the damper force(s, v) - force(s, 0).
     """
 
     force: Any = structural(
         "force as a function of s and v",
         choices=(callable,),
-        doc="In N, positive if it pulls the ends together, for instance lambda s, v: 100 * (s - 0.3) + 2 * v * abs(v).",
+        doc="In N, positive in tension, for instance lambda s, v: 100 * (s - 0.3) + 2 * v * abs(v).",
     )
     energy: Any = structural(
         "elastic energy as a function of s",
@@ -31,7 +31,7 @@ class LineForceLaw(HeatLoss, LineForce):
     f_0: Scalar = parameter("preload, a constant part of f", unit="N", default=0)
 
     def law(self):
-        """Preload and given function."""
+        """Preload and specified function."""
         yield self.f == self.f_0 + self._force(self.v)
 
     def shapes(self):
@@ -39,11 +39,11 @@ class LineForceLaw(HeatLoss, LineForce):
         yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
 
     def stored_energy(self):
-        """Work against the preload, and the elastic energy if it is given."""
+        """Work against the preload, and the elastic energy if specified."""
         return self.f_0 * self.s + (self._number(self.energy(Expr(self.s.sx))) if self.energy else 0.0)
 
     def supplied_power(self):
-        """Power of the spring if its energy is not given."""
+        """Power of the spring if its energy is not specified."""
         return 0.0 if self.energy else -self._force(0.0) * self.v
 
     def loss(self):
@@ -54,5 +54,5 @@ class LineForceLaw(HeatLoss, LineForce):
         return self._number(self.force(Expr(self.s.sx), Expr(as_expr(v).sx)))
 
     def _number(self, value: Any) -> Expr:
-        """Value of a function of the user, made of numbers whose units are not known."""
+        """Value of a user's function, without units."""
         return Expr(as_expr(value).sx)

@@ -1,4 +1,4 @@
-"""LineForceWithMass: a line force of parts of one-dimensional translation."""
+"""LineForceWithMass: line force defined by one-dimensional translational parts."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from components.translational.flange import TranslationalFlange
 
 
 class LineForceWithMass(MassOnLine):
-    """What is connected between flange_a and flange_b, a spring for instance, acts along the line from frame_a to frame_b.
+    """Force of the parts between flange_a and flange_b, such as a spring, along the line from frame_a to frame_b.
 
     Notes
     -----
-    flange_a stands at 0, flange_b at the length of the line; connect both.
+    The position of flange_a is 0, that of flange_b the length of the line; connect both.
     """
 
     flange_a: TranslationalFlange = port(TranslationalFlange, "at frame_a")
     flange_b: TranslationalFlange = port(TranslationalFlange, "at frame_b")
 
     def law(self):
-        """Flanges that move with the ends."""
+        """Flange positions from the line, and the force."""
         yield self.flange_a.s == 0
         yield self.flange_b.s == self.s
         yield self.f == self.flange_a.f
 
     def pulls(self) -> tuple[Any, Any]:
-        """Forces of the flanges."""
+        """Flange forces."""
         return self.f, -self.flange_b.f

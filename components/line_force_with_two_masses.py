@@ -1,4 +1,4 @@
-"""LineForceWithTwoMasses: a line force of parts of one-dimensional translation, with two point masses."""
+"""LineForceWithTwoMasses: line force defined by one-dimensional translational parts, with two point masses."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from components.world import World
 
 
 class LineForceWithTwoMasses(LineForce):
-    """What is connected between flange_a and flange_b acts along the line from frame_a to frame_b, which carries two masses.
+    """Force of the parts between flange_a and flange_b along the line from frame_a to frame_b, which carries two masses.
 
     Notes
     -----
-    The masses stand at constant distances from the ends, as those of a cylinder and its piston rod. flange_a stands at 0,
-    flange_b at the length of the line; connect both.
+    The masses have constant distances from the ends, like those of a cylinder and its piston rod. The position of flange_a
+    is 0, that of flange_b the length of the line; connect both.
     """
 
     m_a: Scalar = parameter("mass near frame_a", unit="kg", default=0, minimum=0)
@@ -30,17 +30,17 @@ class LineForceWithTwoMasses(LineForce):
     flange_b: TranslationalFlange = port(TranslationalFlange, "at frame_b")
 
     def law(self):
-        """Flanges that move with the ends."""
+        """Flange positions from the line, and the force."""
         yield self.flange_a.s == 0
         yield self.flange_b.s == self.s
         yield self.f == self.flange_a.f
 
     def pulls(self) -> tuple[Any, Any]:
-        """Forces of the flanges."""
+        """Flange forces."""
         return self.f, -self.flange_b.f
 
-    def carried(self, e_0: Any) -> tuple[Any, Any]:
-        """Forces of the masses; their levers turn the line and so press its ends apart."""
+    def inertia_loads(self, e_0: Any) -> tuple[Any, Any]:
+        """Inertia loads of the masses; their moments about the ends are balanced by transverse end forces."""
         force_a, force_b = (m * (der(der(r)) - self.world.acceleration(r)) for m, r in self._masses(e_0))
         turning = force_a * (self.L_a / self.s) - force_b * (self.L_b / self.s)
         turning = turning - dot(turning, e_0) * e_0
@@ -55,7 +55,7 @@ class LineForceWithTwoMasses(LineForce):
         return energy
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         masses = self._masses((self.frame_b.r_0 - self.frame_a.r_0) / self.s)
         return sum(self.world.power(m, r, der(r)) for m, r in masses)
 

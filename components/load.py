@@ -1,4 +1,4 @@
-"""FrameLoad, WorldLoad: bases of forces and torques that are given."""
+"""FrameLoad, WorldLoad: bases of prescribed forces and torques."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ NONE = np.zeros(3)
 
 
 class WorldLoad(Component):
-    """Base of loads from outside the model at frame_b; a subclass returns its load()."""
+    """Base of external loads at frame_b; a subclass defines load()."""
 
     ends = ("frame_b", "frame_b")
     resolve_in_frame: str = structural(
-        "where the load is resolved", default="world", choices=("world", "frame_b", "frame_resolve")
+        "resolving frame of the load", default="world", choices=("world", "frame_b", "frame_resolve")
     )
-    frame_b: Frame = port(Frame, "where the load acts")
+    frame_b: Frame = port(Frame, "point of application")
 
     @port
     def frame_resolve(self) -> Frame | None:
@@ -30,14 +30,14 @@ class WorldLoad(Component):
     def equations(self):
         b, (force, torque) = self.frame_b, self.load()
         where = {"frame_b": b, "frame_resolve": getattr(self, "frame_resolve", None)}.get(self.resolve_in_frame)
-        yield b.f == -_turned(force, where, b)
-        yield b.t == -_turned(torque, where, b)
+        yield b.f == -_transformed(force, where, b)
+        yield b.t == -_transformed(torque, where, b)
         if self.resolve_in_frame == "frame_resolve":
-            yield from _free(self.frame_resolve)
+            yield from _unloaded(self.frame_resolve)
 
     def load(self) -> tuple[Any, Any]:
         """Force and torque at frame_b, resolved in resolve_in_frame."""
-        raise NotImplementedError("returns its force and torque at frame_b", "return self.force, NONE")
+        raise NotImplementedError("returns the force and torque at frame_b", "return self.force, NONE")
 
     def supplied_power(self):
         """Power of the load."""
@@ -45,10 +45,10 @@ class WorldLoad(Component):
 
 
 class FrameLoad(TwoFrames):
-    """Base of loads at frame_b, with the opposite load, on the same line, at frame_a; a subclass returns its load()."""
+    """Base of loads between two frames, opposite on one line of action; a subclass defines load(), acting at frame_b."""
 
     resolve_in_frame: str = structural(
-        "where the load is resolved", default="frame_b", choices=("frame_b", "frame_a", "world", "frame_resolve")
+        "resolving frame of the load", default="frame_b", choices=("frame_b", "frame_a", "world", "frame_resolve")
     )
 
     @port
@@ -60,17 +60,17 @@ class FrameLoad(TwoFrames):
         a, b, (force, torque) = self.frame_a, self.frame_b, self.load()
         frames = {"frame_a": a, "frame_b": b, "frame_resolve": getattr(self, "frame_resolve", None)}
         where = frames.get(self.resolve_in_frame)
-        force_0, torque_0 = _turned(force, where, None), _turned(torque, where, None)
-        yield b.f == -_turned(force, where, b)
-        yield b.t == -_turned(torque, where, b)
+        force_0, torque_0 = _transformed(force, where, None), _transformed(torque, where, None)
+        yield b.f == -_transformed(force, where, b)
+        yield b.t == -_transformed(torque, where, b)
         yield a.f == resolve2(a.R, force_0)
         yield a.t == resolve2(a.R, torque_0 + cross(b.r_0 - a.r_0, force_0))
         if self.resolve_in_frame == "frame_resolve":
-            yield from _free(self.frame_resolve)
+            yield from _unloaded(self.frame_resolve)
 
     def load(self) -> tuple[Any, Any]:
         """Force and torque at frame_b, resolved in resolve_in_frame."""
-        raise NotImplementedError("returns its force and torque at frame_b", "return self.force, NONE")
+        raise NotImplementedError("returns the force and torque at frame_b", "return self.force, NONE")
 
     def supplied_power(self):
         """Power of the load at both frames."""
@@ -78,15 +78,15 @@ class FrameLoad(TwoFrames):
         return -(dot(a.f, a.v) + dot(a.t, a.R.w) + dot(b.f, b.v) + dot(b.t, b.R.w))
 
 
-def _turned(vector: Any, where: Any, to: Any) -> Any:
-    """Turn a vector from one frame into another; None is the world."""
+def _transformed(vector: Any, where: Any, to: Any) -> Any:
+    """Transform a vector from one frame to another; None is the world."""
     if where is to or vector is NONE:
         return vector
     vector = vector if where is None else resolve1(where.R, vector)
     return vector if to is None else resolve2(to.R, vector)
 
 
-def _free(frame: Any) -> Any:
-    """Equations of a frame that only gives its orientation."""
+def _unloaded(frame: Any) -> Any:
+    """Equations of a frame that transmits no load."""
     yield frame.f == (0, 0, 0)
     yield frame.t == (0, 0, 0)

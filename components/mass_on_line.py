@@ -11,36 +11,36 @@ from components.world import World
 
 
 class MassOnLine(LineForce):
-    """Base of line forces with a point mass at a fraction of the way from frame_a to frame_b.
+    """Base of line forces with a point mass at a fraction of the line from frame_a to frame_b.
 
     Notes
     -----
-    The mass m at the fraction h divides its force m (a - g) between the ends, 1 - h at frame_a and h at frame_b.
+    The inertia load m (a - g) of the mass at the fraction h acts with the weight 1 - h at frame_a and h at frame_b.
     """
 
     m: Scalar = parameter("mass of the point mass on the line", unit="kg", default=0, minimum=0)
     length_fraction: Scalar = parameter(
-        "place of the mass as a fraction of the line, from frame_a", unit="1", default=0.5, minimum=0
+        "position of the mass as a fraction of the line, from frame_a", unit="1", default=0.5, minimum=0
     )
     world: World = outer(World)
 
-    def carried(self, e_0: Any) -> tuple[Any, Any]:
-        """Force of the mass, divided between the ends."""
+    def inertia_loads(self, e_0: Any) -> tuple[Any, Any]:
+        """Inertia load of the mass, divided between the ends."""
         a, b, h = self.frame_a, self.frame_b, self.length_fraction
         acceleration = (1 - h) * resolve1(a.R, a.a) + h * resolve1(b.R, b.a)
-        force = self.m * (acceleration - self.world.acceleration(self._place()))
+        force = self.m * (acceleration - self.world.acceleration(self._position()))
         return (1 - h) * force, h * force
 
     def stored_energy(self):
         """Kinetic and potential energy of the mass."""
         v = self._velocity()
-        return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._place()))
+        return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._position()))
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
-        return self.world.power(self.m, self._place(), self._velocity())
+        """Power of gravity without a potential."""
+        return self.world.power(self.m, self._position(), self._velocity())
 
-    def _place(self) -> Expr:
+    def _position(self) -> Expr:
         return self.frame_a.r_0 + self.length_fraction * (self.frame_b.r_0 - self.frame_a.r_0)
 
     def _velocity(self) -> Expr:

@@ -1,4 +1,4 @@
-"""Mounting1D: the housing of a drive train on a moving body."""
+"""Mounting1D: housing of a drive train on a moving body."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from components.world import require_direction
 
 
 class Mounting1D(Component):
-    """Holds a shaft end in frame_a, and passes its torque about n on to it."""
+    """Fixes a shaft end to frame_a and transmits its torque about n to frame_a."""
 
     ends = ("frame_a", "flange_b")
     phi0: Scalar = parameter("angle of flange_b relative to frame_a", unit="rad", default=0)
     n: Any = structural(
-        "axis of the torque, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of the torque, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
-    frame_a: Frame = port(Frame, "where the housing is fixed")
-    flange_b: Flange = port(Flange, "the held shaft end")
+    frame_a: Frame = port(Frame, "mounting of the housing")
+    flange_b: Flange = port(Flange, "fixed shaft end")
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def equations(self):

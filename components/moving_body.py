@@ -1,4 +1,4 @@
-"""MovingBody: base of bodies, which move freely where nothing else guides them."""
+"""MovingBody: base of bodies, which move freely unless joints guide them."""
 
 from __future__ import annotations
 
@@ -26,30 +26,30 @@ from components.orientation import axes_rotations, quaternion_of, resolve1
 
 
 class MovingBody(Component):
-    """Base of bodies: the motion of their reference frame, and where a freely moving one starts."""
+    """Base of bodies: motion of the reference frame, and initial conditions of free bodies."""
 
     angles_start: Any = structural(
-        "angles at the start, in rad",
+        "initial angles, in rad",
         default=(0, 0, 0),
         shape=(3,),
-        doc="The orientation of a freely moving body, a guess unless angles_fixed. Joints that hold the "
-        "body have start values of their own.",
+        doc="Orientation of a free body, a guess unless angles_fixed=True. If joints guide the body, their start "
+        "values apply.",
     )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,), choices=(1, 2, 3))
-    angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
+    angles_fixed: bool = structural("whether the initial angles are fixed", default=False, choices=(True, False))
     T_start: Any = structural(
         "rotation matrix of these angles",
         default=lambda self: axes_rotations(self.sequence_start, self.angles_start),
         shape=(3, 3),
-        doc="From the world to the body; from the angles if not given.",
+        doc="From the world to the body; computed from the angles if not given.",
     )
     w_0_start: Any = structural(
-        "angular velocity at the start, resolved in the world, in rad/s",
+        "initial angular velocity, resolved in the world, in rad/s",
         default=(0, 0, 0),
         shape=(3,),
-        doc="A guess unless w_0_fixed.",
+        doc="A guess unless w_0_fixed=True.",
     )
-    w_0_fixed: bool = structural("whether it holds at the start", default=False, choices=(True, False))
+    w_0_fixed: bool = structural("whether w_0_start is fixed", default=False, choices=(True, False))
     r_0: Vector3 = variable("position of the body, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
     a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
@@ -57,16 +57,16 @@ class MovingBody(Component):
     z_a: Vector3 = variable("angular acceleration, resolved in the body", unit="rad/s2")
 
     def free_frame(self) -> Frame:
-        """Return a reference frame with the angles at the start."""
+        """Return a reference frame with the initial angles."""
         return Frame(Q=guess(self._orientation())) if np.any(self.angles_start) else Frame()
 
     def free_root(self, frame: Any) -> Any:
-        """State that the frame is a root where nothing else guides the body."""
-        # Of bodies that move together, the one whose orientation is given tells it.
+        """Return the potential root of a body: its frame becomes a root if no joint guides it."""
+        # Among connected bodies, the body whose orientation is specified becomes the root.
         return potential_root(frame, 0 if self.angles_fixed else 1 if np.any(self.angles_start) else 2)
 
     def free_start(self, frame: Any) -> Iterator[Any]:
-        """Equations at the start of a body that moves freely."""
+        """Yield the initial equations of a free body."""
         if self.w_0_fixed:
             yield self.w_0_start == resolve1(frame.R, frame.R.w)
         if is_root(frame):
@@ -76,12 +76,12 @@ class MovingBody(Component):
                 yield frame.Q @ frame.Q == 1
         elif self.angles_fixed:
             raise DeclarationError(
-                "angles_fixed=True has no effect here: the orientation follows from what the body is connected to. Leave it "
-                "out, and fix the start there: phi=fixed(...) of a joint, angles_fixed=True of a Spherical or a free body."
+                "angles_fixed=True has no effect here: the connected parts determine the orientation. Leave it out and fix "
+                "their initial values: phi=fixed(...) of a joint, angles_fixed=True of a Spherical or a free body."
             )
 
     def motion(self, frame: Any) -> Iterator[Any]:
-        """Equations of the motion that results show."""
+        """Yield the equations of the motion variables, resolved in the world."""
         yield self.r_0 == frame.r_0
         yield self.v_0 == resolve1(frame.R, frame.v)
         yield self.a_0 == resolve1(frame.R, frame.a)
@@ -92,25 +92,25 @@ class MovingBody(Component):
         return quaternion_of(self.T_start)
 
 
-def off_centre(body: Any, world: Any, centre: Any) -> Iterator[Any]:
-    """What must hold at the start: where gravity is that of a point, no body is there."""
+def point_gravity_requirements(body: Any, world: Any, centre: Any) -> Iterator[Any]:
+    """Require that the body does not start at the singularity of point gravity."""
     if world.gravity == "point":
         name = body._path or type(body).__name__
         yield require(
             dot(centre, centre) > 0,
-            f"{name} starts at the origin of the world, where gravity of a point is infinite; start it elsewhere, "
+            f"{name} starts at the origin of the world, where point gravity is infinite; start it elsewhere, "
             "for instance r_0=fixed((7e6, 0, 0)), or take World(gravity=None)",
         )
 
 
-def past_centre(world: Any, m: Any, centre: Any, velocity: Any) -> Iterator[Any]:
-    """What must hold in a run: where gravity is that of a point, no body of mass m comes there."""
+def point_gravity_validity(world: Any, m: Any, centre: Any, velocity: Any) -> Iterator[Any]:
+    """Check during a run that a body of mass m does not reach the singularity of point gravity."""
     if world.gravity == "point":
         distance = sqrt(dot(centre, centre))
         yield apart(
             centre,
             dot(centre, velocity) / distance,
             m * world.mu / dot(centre, centre),
-            "it reaches the origin of the world, where point gravity is infinite. End the run before that, stop_time=..., "
-            "or let the body pass beside it: v_0=fixed(...) at right angles to the line to the origin",
+            "the body reaches the origin of the world, where point gravity is infinite. End the run before that, stop_time=..., "
+            "or let the body miss it: v_0=fixed(...) perpendicular to the line to the origin",
         )

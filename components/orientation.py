@@ -1,6 +1,6 @@
-"""Orientation objects: a rotation matrix with its angular velocity, and the functions that use them.
+"""Orientation objects, a rotation matrix with its angular velocity, and functions of these.
 
-An orientation R of frame 2 relative to frame 1 holds `T`, which turns coordinates of frame 1 into those of frame 2, and
+An orientation R of frame 2 relative to frame 1 contains `T`, which transforms coordinates from frame 1 to frame 2, and
 `w`, the angular velocity of frame 2 relative to frame 1, resolved in frame 2. Names as in Modelica's MultiBody.Frames.
 """
 
@@ -30,20 +30,20 @@ class Orientation(Record):
     w: Vector3 = variable("angular velocity, resolved in this frame", unit="rad/s")
 
 
-# Entry of a unit vector or of a rotation matrix, of largest entry 1, that is rounding: cos(pi / 2) is 6e-17.
+# Entry of a unit vector or rotation matrix that counts as 0: round-off, such as cos(pi / 2) = 6e-17.
 ROUNDING = 4 * np.finfo(float).eps
 
 
 def unit_vector(n: Any) -> np.ndarray:
-    """Return a vector of numbers scaled to length 1; rounding leaves true zeros."""
+    """Return a numerical vector scaled to length 1, with round-off set to 0."""
     n = np.asarray(n, dtype=float)
-    n = n / np.max(np.abs(n))  # squares neither overflow nor vanish
+    n = n / np.max(np.abs(n))  # avoids overflow and underflow of squares
     n = np.where(np.abs(n) < ROUNDING, 0.0, n)
     return n / np.linalg.norm(n)
 
 
 def across(n: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Two directions of numbers across n of length 1, at right angles to each other."""
+    """Return two perpendicular numerical unit vectors normal to the unit vector n."""
     e_y = unit_vector(np.cross(n, np.eye(3)[np.argmin(np.abs(n))]))
     return np.cross(e_y, n), e_y
 
@@ -54,7 +54,7 @@ def norm(v: Any) -> Any:
 
 
 def parallel(a: Any, b: Any) -> bool:
-    """True if two directions of numbers lie on one line, to 1e-6 rad: less is taken for an error of the user."""
+    """True if two numerical directions are parallel within 1e-6 rad: a smaller angle is a user error."""
     return bool(np.linalg.norm(np.cross(unit_vector(a), unit_vector(b))) < 1e-6)
 
 
@@ -64,12 +64,12 @@ def skew(v: Any) -> Any:
 
 
 def resolve1(R: Any, v: Any) -> Any:
-    """Turn a vector resolved in frame 2 into frame 1: T' v."""
+    """Transform a vector from frame 2 to frame 1: T' v."""
     return R.T.T @ v
 
 
 def resolve2(R: Any, v: Any) -> Any:
-    """Turn a vector resolved in frame 1 into frame 2: T v."""
+    """Transform a vector from frame 1 to frame 2: T v."""
     return R.T @ v
 
 
@@ -90,7 +90,7 @@ def planar_rotation(n: Any, phi: Any) -> RelativeOrientation:
 
 
 def planar_matrix(phi: Any) -> Any:
-    """Rotation matrix of a turn by the angle phi about z, for results, where no rate counts."""
+    """Rotation matrix of a rotation by the angle phi about z, for results without rates."""
     c, s = cos(phi), sin(phi)
     return as_expr([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
@@ -116,9 +116,9 @@ def null_rotation() -> RelativeOrientation:
 
 
 def from_quaternion(Q: Any) -> RelativeOrientation:
-    """Orientation that a quaternion Q = (vector part, scalar part) describes, with w = G(Q) der(Q).
+    """Orientation of a quaternion Q = (vector part, scalar part), with w = G(Q) der(Q).
 
-    Dividing by its square keeps T a rotation where rounding or an iteration changes the length of Q from 1.
+    Division by Q . Q keeps T a rotation when round-off or an iteration changes the norm of Q.
     """
     e, s = Q[:3], Q[3]
     T = (2 * (outer_product(e, e) - s * skew(e)) + (s * s - e @ e) * np.eye(3)) / (Q @ Q)
@@ -127,11 +127,11 @@ def from_quaternion(Q: Any) -> RelativeOrientation:
 
 
 def rodrigues_rotation(theta: Any) -> RelativeOrientation:
-    """Turn by the angle 2 arctan(|theta| / 2) about theta, in small turns by the vector theta, with w = G(theta) der(theta).
+    """Rotate by the angle 2 arctan(|theta| / 2) about theta, to first order by the vector theta; w = G(theta) der(theta).
 
-    Its Rodrigues vector is p = theta / 2, that is, it has the quaternion (p, 1) / sqrt(1 + p . p): there is no singular
-    position but a half turn, and no trigonometric function. The torque t of frame 2, resolved in it, does the work
-    of G' t on theta (`rodrigues_rate`).
+    The Rodrigues vector is p = theta / 2, the quaternion (p, 1) / sqrt(1 + p . p): only half a turn is singular, and there
+    are no trigonometric functions. The generalised force of a torque t, resolved in frame 2, on theta is G' t
+    (`rodrigues_rate`).
 
     Parameters
     ----------
@@ -155,13 +155,13 @@ def outer_product(a: Any, b: Any) -> Any:
 
 
 def quaternion_rate(Q: Any, w: Any) -> tuple[Expr, Expr]:
-    """Vector and scalar part of der(Q) for an angular velocity w resolved in the turned frame."""
+    """Vector and scalar part of der(Q) for an angular velocity w resolved in the rotated frame."""
     e, s = Q[:3], Q[3]
     return 0.5 * (s * w + cross(e, w)), -0.5 * (e @ w)
 
 
 def quaternion_equations(Q: Any, w: Any) -> Iterator[Any]:
-    """Equations of a quaternion as state; the feedback keeps its norm at 1 (Baumgarte)."""
+    """Differential equations of a quaternion; the feedback stabilises its norm at 1 (Baumgarte)."""
     e, s = quaternion_rate(Q, w)
     back = feedback * (1 - Q @ Q)
     yield der(Q[:3]) == e + back * Q[:3]
@@ -169,14 +169,14 @@ def quaternion_equations(Q: Any, w: Any) -> Iterator[Any]:
 
 
 def quaternion_of(T: np.ndarray) -> np.ndarray:
-    """Return the quaternion (vector part, scalar part) of a rotation matrix of numbers."""
+    """Return the quaternion (vector part, scalar part) of a numerical rotation matrix."""
     from scipy.spatial.transform import Rotation
 
     return Rotation.from_matrix(np.asarray(T).T).as_quat(canonical=True)
 
 
 def axes_rotations(sequence: Any, angles: Any) -> np.ndarray:
-    """Rotation matrix of numbers, from three turns about the axes 1, 2 or 3 of `sequence` (the turned ones)."""
+    """Numerical rotation matrix of three successive rotations about the rotated axes 1, 2 or 3 of `sequence`."""
     T = np.eye(3)
     for axis, angle in zip(sequence, angles, strict=True):
         T = axis_rotation(np.eye(3)[int(axis) - 1], angle) @ T
@@ -184,14 +184,14 @@ def axes_rotations(sequence: Any, angles: Any) -> np.ndarray:
 
 
 def axis_rotation(n: Any, angle: float) -> np.ndarray:
-    """Rotation matrix of numbers, from a turn by `angle` in rad about n of length 1; rounding leaves true zeros."""
+    """Numerical rotation matrix of a rotation by `angle` in rad about the unit vector n, with round-off set to 0."""
     outer = np.outer(n, n)
     T = outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), n) * np.sin(angle)
     return np.where(np.abs(T) < ROUNDING, 0.0, T)
 
 
 def two_axes_rotation(n_x: Any, n_y: Any) -> np.ndarray:
-    """Rotation matrix of numbers, from the x-axis of the turned frame and a direction in its xy plane."""
+    """Numerical rotation matrix from the x-axis of the rotated frame and a direction in its xy plane."""
     e_x = unit_vector(n_x)
     e_z = unit_vector(np.cross(e_x, unit_vector(n_y)))
     T = np.array([e_x, np.cross(e_z, e_x), e_z])

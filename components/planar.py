@@ -13,13 +13,13 @@ from components.world import require_direction
 
 
 class Planar(TwoFrames):
-    """Planar joint: frame_b moves in the plane of frame_a that is normal to n, and turns about n."""
+    """Planar joint: frame_b translates in the plane of frame_a normal to n, and rotates about n."""
 
     n: Any = structural(
-        "normal of the plane, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "normal of the plane, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     n_x: Any = structural(
-        "direction of s_x, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Only its part in the plane counts."
+        "direction of s_x, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Only its in-plane part is used."
     )
     s_x: Scalar = variable("distance from frame_a to frame_b along n_x", unit="m", select=PREFER)
     s_y: Scalar = variable("distance from frame_a to frame_b along n x n_x", unit="m", select=PREFER)
@@ -32,7 +32,7 @@ class Planar(TwoFrames):
     wd: Scalar = variable("der(w)", unit="rad/s2")
 
     def check(self) -> None:
-        """Refuse directions that span no plane."""
+        """Reject directions of length 0, and parallel ones."""
         require_direction(self, self.n, "n")
         require_direction(self, self.n_x, "n_x")
         if parallel(self.n, self.n_x):
@@ -63,5 +63,5 @@ class Planar(TwoFrames):
         yield dot(n, self.frame_b.t) == 0
 
     def shapes(self):
-        """A pin where frame_b is."""
+        """A pin at frame_b."""
         yield geometry.Axle(pose(self.frame_b), unit_vector(self.n))

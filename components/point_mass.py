@@ -1,18 +1,18 @@
-"""PointMass: a body without rotational inertia."""
+"""PointMass: body without rotational inertia."""
 
 from __future__ import annotations
 
 from acausal import Component, Scalar, Vector3, dot, geometry, is_root, outer, parameter, port, potential_root, variable
 from components.frame import Frame, pose
-from components.moving_body import off_centre, past_centre
+from components.moving_body import point_gravity_requirements, point_gravity_validity
 from components.orientation import resolve1, resolve2
 from components.world import World
 
-LAST = 10  # whatever else gives an orientation comes first
+LAST = 10  # priority as a root: any other potential root determines the orientation first
 
 
 class PointMass(Component):
-    """Mass at the origin of frame_a. Where nothing gives its frame an orientation, the axes are those of the world.
+    """Mass at the origin of frame_a, whose axes are those of the world unless other parts determine its orientation.
 
     Notes
     -----
@@ -22,7 +22,7 @@ class PointMass(Component):
     ends = ("frame_a", "")
     m: Scalar = parameter("mass", unit="kg", minimum=0)
     world: World = outer(World)
-    frame_a: Frame = port(Frame(turns=False), "where the mass is")
+    frame_a: Frame = port(Frame(turns=False), "coordinate system at the mass")
     r_0: Vector3 = variable("position of the mass, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
     a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
@@ -40,10 +40,10 @@ class PointMass(Component):
         yield self.a_0 == resolve1(frame.R, frame.a)
 
     def requirements(self):
-        yield from off_centre(self, self.world, self.frame_a.r_0)
+        yield from point_gravity_requirements(self, self.world, self.frame_a.r_0)
 
     def validity(self):
-        yield from past_centre(self.world, self.m, self.frame_a.r_0, self.v_0)
+        yield from point_gravity_validity(self.world, self.m, self.frame_a.r_0, self.v_0)
 
     def stored_energy(self):
         """Kinetic and potential energy."""
@@ -51,7 +51,7 @@ class PointMass(Component):
         return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self.frame_a.r_0))
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         return self.world.power(self.m, self.frame_a.r_0, self.v_0)
 
     def shapes(self):

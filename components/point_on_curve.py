@@ -1,4 +1,4 @@
-"""PointOnCurve: a point that is guided along a curve."""
+"""PointOnCurve: guidance of a point along a curve."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from components.orientation import resolve1, resolve2
 
 
 class PointOnCurve(TwoFrames):
-    """Guides the origin of frame_b along a curve that is fixed to frame_a, without friction; frame_b turns freely.
+    """Guides the origin of frame_b along a curve fixed to frame_a, without friction; the rotation is free.
 
     Notes
     -----
-    r_rel = c(u), f . dc/du = 0. No branch: the rest of the machine holds both frames, or they belong to bodies that move
-    freely. The curve holds the point on both sides. u=guess(...) selects the place where the point starts, on a curve that
-    passes it more than once. The curve has two derivatives, and dc/du is 0 nowhere.
+    r_rel = c(u), f . dc/du = 0. No branch: other parts hold both frames, or the frames belong to free bodies. The constraint
+    is bilateral. On a curve that passes a point repeatedly, u=guess(...) selects the branch at the start. The curve must be
+    twice differentiable with nonzero dc/du.
 
     Examples
     --------
@@ -38,20 +38,20 @@ class PointOnCurve(TwoFrames):
     """
 
     curve: Any = structural(
-        "function of u that returns the three coordinates of the point, resolved in frame_a",
+        "function of u returning the three coordinates of the point, resolved in frame_a",
         cls=object,
-        doc="In m; of any parameter u, an angle or a length.",
+        doc="In m; u may be any parameter, such as an angle or a length.",
     )
-    u: Scalar = variable("parameter of the curve where the point is", select=PREFER)
+    u: Scalar = variable("curve parameter of the point", select=PREFER)
     der_u: Scalar = variable("der(u)", select=PREFER)
     der2_u: Scalar = variable("der(der_u)")
     f: Any = variable("force of the curve on the point, resolved in frame_a", unit="N", shape=(3,))
 
     def check(self) -> None:
-        """Refuse what is no function."""
+        """Reject a curve that is not a function."""
         if not callable(self.curve):
             raise DeclarationError(
-                "`curve` is no function; give one of u, for instance curve=lambda u: (0.3 * cos(u), 0.2 * sin(u), 0)."
+                "`curve` is not a function; give a function of u, such as curve=lambda u: (0.3 * cos(u), 0.2 * sin(u), 0)."
             )
 
     def equations(self):
@@ -70,7 +70,7 @@ class PointOnCurve(TwoFrames):
         tangent = self._tangent(self._point())
         yield require(
             dot(tangent, tangent) > 0,
-            "the curve has no tangent at the start, dc/du = 0; give it another parameter u, or start elsewhere: u=guess(...)",
+            "the curve has no tangent at the start, dc/du = 0; use another parameter u, or start elsewhere: u=guess(...)",
         )
 
     def shapes(self):
@@ -81,7 +81,7 @@ class PointOnCurve(TwoFrames):
         c = as_expr(self.curve(self.u))
         if c.shape != (3,):
             raise DeclarationError(
-                "`curve` does not return three coordinates; for instance curve=lambda u: (u, 0.1 * u**2, 0)."
+                "`curve` does not return three coordinates; give a function such as curve=lambda u: (u, 0.1 * u**2, 0)."
             )
         return c
 

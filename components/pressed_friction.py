@@ -1,4 +1,4 @@
-"""PressedFriction: base of friction that a normal force makes."""
+"""PressedFriction: base of dry friction under a controlled normal force."""
 
 from __future__ import annotations
 
@@ -10,24 +10,22 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class PressedFriction(HeatLoss):
-    """Base of brakes and clutches, whose friction is mu cgeo fn; a subclass declares cgeo and says what slides."""
+    """Base of brakes and clutches with friction mu cgeo fn; a subclass declares cgeo and the sliding speed."""
 
     speed_unit: ClassVar[str]
     mu_pos: Any = structural(
         "coefficient of friction over the sliding speed",
         default=((0, 0.5),),
-        doc="A number, or rows (speed, coefficient) of ascending speeds from 0 on, between which it is linear.",
+        doc="A number, or rows (speed, coefficient) with ascending speeds from 0 on, linearly interpolated.",
     )
-    peak: Scalar = parameter(
-        "ratio of the greatest load of sticking and that of sliding", unit="1", default=1, minimum=1
-    )
+    peak: Scalar = parameter("ratio of the largest sticking load to the sliding load", unit="1", default=1, minimum=1)
     cgeo: Any
-    sliding_speed: ClassVar[Any]  # method: sliding speed, not less than 0 while it slides
-    fn_max: Scalar = parameter("greatest normal force", unit="N", minimum=0)
+    sliding_speed: ClassVar[Any]  # method: magnitude of the speed during sliding
+    fn_max: Scalar = parameter("maximum normal force", unit="N", minimum=0)
     f_normalized: Scalar = input(
-        "normal force as a fraction of its greatest value",
+        "normal force as a fraction of fn_max",
         unit="1",
-        doc="Between 0 (open) and 1 (closed); negative is open.",
+        doc="Between 0 (open) and 1 (closed); negative values are open.",
     )
     fn: Scalar = variable("normal force", unit="N")
 
@@ -36,7 +34,7 @@ class PressedFriction(HeatLoss):
         yield self.fn == piecewise((self.fn_max * self.f_normalized, self.f_normalized > 0), 0)
 
     def holding(self) -> Expr:
-        """Greatest load of sticking."""
+        """Largest load of sticking."""
         return self.peak * self.mu_0() * self.cgeo * self.fn
 
     def dragging(self) -> Expr:
@@ -44,7 +42,7 @@ class PressedFriction(HeatLoss):
         return self._mu().at(self.sliding_speed()) * self.cgeo * self.fn
 
     def mu_0(self) -> Expr:
-        """Coefficient of friction at the speed 0."""
+        """Coefficient of friction at zero speed."""
         return self._mu().at_rest()
 
     def _mu(self) -> SpeedTable:

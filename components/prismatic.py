@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, part, port, quantity, structural, variable
+from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, part, quantity, structural, variable
+from components.driven import DrivenByRod
 from components.driven_joint import DrivenJoint
 from components.frame import move
 from components.joint_friction import PrismaticFriction
 from components.orientation import null_rotation, resolve1, unit_vector
-from components.translational.flange import TranslationalFlange
 
 
-class Prismatic(DrivenJoint):
+class Prismatic(DrivenByRod, DrivenJoint):
     """Prismatic joint: frame_b slides relative to frame_a along the axis n."""
 
     n: Any = structural(
-        "axis of translation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+        "axis of translation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any nonzero length."
     )
     d: Scalar = parameter("viscous friction", unit="N.s/m", default=0, minimum=0)
     f_dry: Scalar = parameter(
@@ -24,10 +24,10 @@ class Prismatic(DrivenJoint):
         unit="N",
         default=0,
         minimum=0,
-        doc='d v + f_dry tanh(v / v_dry) acts against v, and creeps where it should stick; with friction="stiction" it sticks. '
-        'With friction="reaction" it is mu |f|, f across n.',
+        doc='The force d v + f_dry tanh(v / v_dry) opposes v and creeps at rest; with friction="stiction" the joint sticks up to '
+        'peak f_dry. With friction="reaction" the dry friction is mu |f|, f normal to n.',
     )
-    v_dry: Scalar = parameter("speed below which dry friction fades", unit="m/s", default=1e-3, positive=True)
+    v_dry: Scalar = parameter("speed of regularisation of dry friction", unit="m/s", default=1e-3, positive=True)
     compliance: Scalar = parameter(
         "compliance of the drive", unit="m/N", default=0, minimum=0, doc="axis.s - s = compliance f; 0 is rigid."
     )
@@ -36,19 +36,9 @@ class Prismatic(DrivenJoint):
     a: Scalar = variable("der(v)", unit="m/s2")
     f: Scalar = variable("drive force along n", unit="N")
 
-    @port
-    def axis(self) -> TranslationalFlange | None:
-        """Drive rod."""
-        return TranslationalFlange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> TranslationalFlange | None:
-        """Housing of the drive."""
-        return TranslationalFlange() if self.use_axis_flange else None
-
     @part
     def stiction(self) -> PrismaticFriction | None:
-        """Dry friction that sticks."""
+        """Dry friction with stiction."""
         return PrismaticFriction(peak=self.peak) if self.sticks() else None
 
     def equations(self):
@@ -59,10 +49,10 @@ class Prismatic(DrivenJoint):
         yield from move(self.frame_a, self.frame_b, r, null_rotation())
         yield self.frame_a.f == -self.frame_b.f
         yield self.frame_a.t == -self.frame_b.t - cross(r, self.frame_b.f)
-        yield self.f - self.resisting(self._drag()) == -dot(n, self.frame_b.f)
-        yield from self.sliding(self.v, self.f_dry, quantity(1.0, "1"))
+        yield self.f - self.friction_load(self._drag()) == -dot(n, self.frame_b.f)
+        yield from self.stiction_equations(self.v, self.f_dry, quantity(1.0, "1"))
         if self.use_axis_flange:
-            yield self.axis.s == self.s + self.give(self.f)
+            yield self.axis.s == self.s + self.drive_deflection(self.f)
             yield self.axis.f == self.f
             yield self.support.s == 0
         else:
@@ -77,10 +67,10 @@ class Prismatic(DrivenJoint):
 
     def stored_energy(self):
         """Elastic energy of the drive."""
-        return self.f * self.give(self.f) / 2
+        return self.f * self.drive_deflection(self.f) / 2
 
     def dissipated_power(self):
-        """Power of the friction."""
+        """Power of friction without stiction."""
         return self.v * self._drag()
 
     def _drag(self) -> Any:

@@ -1,4 +1,4 @@
-"""RackAndPinion: a pinion and a rack in one housing."""
+"""RackAndPinion: pinion and rack in one housing."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from components.revolute import Revolute
 from components.translational.ideal_rolling_wheel import IdealRollingWheel
 from components.world import require_direction
 
-# Cosine of the angle between the axis of the pinion and the rack that is taken for a right angle: 1e-6 rad is rounding.
+# Cosine of the angle between pinion axis and rack that counts as 0: rounding of the specified directions.
 RIGHT = 1e-6
 
 
 class RackAndPinion(Component):
-    """Rack and pinion without inertia or backlash: frame_a turns in a housing by phi, frame_b slides in it by radius phi.
+    """Massless rack and pinion without backlash: in a housing, frame_a rotates by phi and frame_b slides by radius phi.
 
     Notes
     -----
@@ -41,14 +41,14 @@ class RackAndPinion(Component):
     ends = ("frame_a", "frame_b")
     radius: Scalar = parameter("pitch radius of the pinion", unit="m", positive=True)
     n_a: Any = structural(
-        "axis of the pinion, resolved in the housing", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of the pinion, resolved in the housing", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     n_b: Any = structural(
-        "direction of the rack, resolved in the housing", default=(1, 0, 0), shape=(3,), doc="At right angles to n_a."
+        "direction of the rack, resolved in the housing", default=(1, 0, 0), shape=(3,), doc="Perpendicular to n_a."
     )
     r_a: Vector3 = parameter("from the housing to the pinion, resolved in the housing", unit="m", default=(0, 0, 0))
     r_b: Vector3 = parameter(
-        "from the housing to the rack where phi is 0, resolved in the housing", unit="m", default=(0, 0, 0)
+        "from the housing to the rack at phi = 0, resolved in the housing", unit="m", default=(0, 0, 0)
     )
     frame_a: Frame = port(Frame, "pinion")
     frame_b: Frame = port(Frame, "rack")
@@ -61,12 +61,12 @@ class RackAndPinion(Component):
     mesh = IdealRollingWheel(radius=radius)
 
     def check(self) -> None:
-        """Refuse axes of length 0, and a rack that is not at right angles to the axis of the pinion."""
+        """Reject axes of length 0, and a rack that is not perpendicular to the pinion axis."""
         require_direction(self, self.n_a, "n_a")
         require_direction(self, self.n_b, "n_b")
         if abs(unit_vector(self.n_a) @ unit_vector(self.n_b)) > RIGHT:
             raise DeclarationError(
-                "`n_b` is not at right angles to `n_a`; give for instance n_a=(0, 0, 1), n_b=(1, 0, 0)."
+                "`n_b` is not perpendicular to `n_a`; give for instance n_a=(0, 0, 1), n_b=(1, 0, 0)."
             )
 
     def connections(self):

@@ -1,4 +1,4 @@
-"""The sign of a speed, regularised near 0."""
+"""Regularised sign of a speed."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ KINDS = ("exp", "sine", "linear", "cosine")
 
 
 def regularized_sign(v: Any, v0: Any, reg: str) -> Any:
-    """Sign of v that passes through 0 within v0, or for "exp" within 0.1 v0.
+    """Return the sign of v, regularised for |v| < v0, or for "exp" within about 0.1 v0.
 
     Parameters
     ----------
     v, v0 : Expr
-        Speed, and speed beyond which the sign is 1 or -1, in one unit.
+        Speed, and speed beyond which the sign is 1 or -1, in the same unit.
     reg : {"exp", "sine", "linear", "cosine"}
         "exp": 2 / (1 + exp(-v / (0.01 v0))) - 1; within v0 "sine": sin(pi/2 v / v0), "linear": v / v0,
         "cosine": sign(v) (1 - cos(pi/2 v / v0)).

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from acausal import PREFER, Scalar, der, dot, geometry, parameter, part, port, structural, variable
+from acausal import PREFER, Scalar, der, dot, geometry, parameter, part, structural, variable
+from components.driven import DrivenByShaft
 from components.driven_joint import DrivenJoint
-from components.flange import Flange
 from components.frame import move, pose
 from components.joint_friction import RevoluteFriction
 from components.orientation import planar_rotation, resolve1, unit_vector
 
 
-class Revolute(DrivenJoint):
-    """Revolute joint: frame_b turns relative to frame_a about the axis n."""
+class Revolute(DrivenByShaft, DrivenJoint):
+    """Revolute joint: frame_b rotates relative to frame_a about the axis n."""
 
     n: Any = structural(
-        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     d: Scalar = parameter("viscous friction", unit="N.m.s/rad", default=0, minimum=0)
     tau_dry: Scalar = parameter(
@@ -25,12 +25,16 @@ class Revolute(DrivenJoint):
         unit="N.m",
         default=0,
         minimum=0,
-        doc='d w + tau_dry tanh(w / w_dry) acts against w, and creeps where it should stick; with friction="stiction" it sticks, '
+        doc='The torque d w + tau_dry tanh(w / w_dry) opposes w and creeps at rest; with friction="stiction" the joint sticks '
         "up to peak tau_dry.",
     )
-    w_dry: Scalar = parameter("speed below which dry friction fades", unit="rad/s", default=1e-2, positive=True)
+    w_dry: Scalar = parameter("speed of regularisation of dry friction", unit="rad/s", default=1e-2, positive=True)
     r_pin: Scalar = parameter(
-        "radius of the pin", unit="m", default=0, minimum=0, doc='With friction="reaction": mu r_pin |f|, f across n.'
+        "radius of the pin",
+        unit="m",
+        default=0,
+        minimum=0,
+        doc='With friction="reaction": torque mu r_pin |f|, f normal to n.',
     )
     compliance: Scalar = parameter(
         "compliance of the drive",
@@ -44,19 +48,9 @@ class Revolute(DrivenJoint):
     a: Scalar = variable("der(w)", unit="rad/s2")
     tau: Scalar = variable("drive torque about n", unit="N.m")
 
-    @port
-    def axis(self) -> Flange | None:
-        """Drive shaft."""
-        return Flange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> Flange | None:
-        """Housing of the drive."""
-        return Flange() if self.use_axis_flange else None
-
     @part
     def stiction(self) -> RevoluteFriction | None:
-        """Dry friction that sticks."""
+        """Dry friction with stiction."""
         return RevoluteFriction(peak=self.peak) if self.sticks() else None
 
     def equations(self):
@@ -67,14 +61,14 @@ class Revolute(DrivenJoint):
         yield from move(self.frame_a, self.frame_b, (0, 0, 0), R)
         yield self.frame_a.f == -resolve1(R, self.frame_b.f)
         yield self.frame_a.t == -resolve1(R, self.frame_b.t)
-        yield self.tau - self.resisting(self._drag()) == -dot(n, self.frame_b.t)
-        yield from self.sliding(self.w, self.tau_dry, self.r_pin)
+        yield self.tau - self.friction_load(self._drag()) == -dot(n, self.frame_b.t)
+        yield from self.stiction_equations(self.w, self.tau_dry, self.r_pin)
         yield from self.drive()
 
     def drive(self) -> Iterator[Any]:
-        """Yield the equations of the drive, or tau = 0 without one."""
+        """Yield the equations of the drive, or tau = 0 without a drive."""
         if self.use_axis_flange:
-            yield self.axis.phi == self.phi + self.give(self.tau)
+            yield self.axis.phi == self.phi + self.drive_deflection(self.tau)
             yield self.axis.tau == self.tau
             yield self.support.phi == 0
         else:
@@ -93,10 +87,10 @@ class Revolute(DrivenJoint):
 
     def stored_energy(self):
         """Elastic energy of the drive."""
-        return self.tau * self.give(self.tau) / 2
+        return self.tau * self.drive_deflection(self.tau) / 2
 
     def dissipated_power(self):
-        """Power of the friction."""
+        """Power of friction without stiction."""
         return self.w * self._drag()
 
     def _drag(self) -> Any:

@@ -1,4 +1,4 @@
-"""RevolutePlanarLoopConstraint: a revolute joint that closes a planar loop."""
+"""RevolutePlanarLoopConstraint: revolute joint that closes a planar loop."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from components.world import require_direction
 
 
 class RevolutePlanarLoopConstraint(TwoFrames):
-    """Holds the origins of both frames together in the plane across n, and nothing else.
+    """Keeps the origins of both frames coincident in the plane normal to n, without other constraints.
 
     Notes
     -----
-    For those who expect it from Modelica's library: a loop closed by a Revolute works as well. No branch: both frames
-    must be held by the rest of a mechanism that moves across n only. No force along n and no torque is transmitted.
+    Provided for compatibility with Modelica's library: a loop closed by a Revolute works as well. No branch: other parts of
+    a planar mechanism normal to n must hold both frames. No force along n and no torque is transmitted.
     """
 
     n: Any = structural(
-        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
-    f_c: Any = variable("constraint forces across n, along two directions at right angles", unit="N", shape=(2,))
+    f_c: Any = variable("constraint force along two perpendicular directions normal to n", unit="N", shape=(2,))
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def equations(self):

@@ -1,4 +1,4 @@
-"""RollingWheel: a wheel with mass that rolls on the road without slip."""
+"""RollingWheel: wheel with mass rolling on the road without slip."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from components.rolling_wheel_joint import RollingWheelJoint
 
 
 class RollingWheel(Component):
-    """Wheel that rolls on the plane z = 0 of the world without slip.
+    """Wheel with mass rolling on the plane z = 0 of the world without slip.
 
     Notes
     -----
-    It has five coordinates, of which x, y and the angles hold at the start, and three freedoms of velocity, whose rates of
-    the angles hold at the start. A wheel that is part of a vehicle starts as the joints of that say: x=guess(0),
+    Five coordinates, with fixed initial x, y and angles, and three degrees of freedom in velocity (nonholonomic), with fixed
+    initial rates of the angles. If the joints of a vehicle determine the initial state, give guesses: x=guess(0),
     y=guess(0), angles=guess((0, 0, 0)), der_angles=guess((0, 0, 0)).
     """
 
@@ -22,12 +22,12 @@ class RollingWheel(Component):
     radius: Scalar = parameter("radius of the wheel", unit="m", positive=True)
     m: Scalar = parameter("mass", unit="kg", minimum=0)
     I_axis: Scalar = parameter("moment of inertia about the axis of the wheel", unit="kg.m2", minimum=0)
-    I_long: Scalar = parameter("moment of inertia across the axis of the wheel", unit="kg.m2", minimum=0)
+    I_long: Scalar = parameter("moment of inertia about a diameter of the wheel", unit="kg.m2", minimum=0)
     frame_a: Frame = port(Frame, "centre of the wheel, with y along its axis")
     x: Scalar = variable("x-coordinate of the centre, resolved in the world", unit="m", start=0, fixed=True)
     y: Scalar = variable("y-coordinate of the centre, resolved in the world", unit="m", start=0, fixed=True)
     angles: Vector3 = variable(
-        "angles from the world to frame_a about z, y and x, each about the turned axis; that about x is within 90 degrees",
+        "angles from the world to frame_a about z, y and x, each about the rotated axis; that about x within 90 degrees",
         unit="rad",
         start=(0, 0, 0),
         fixed=True,

@@ -1,4 +1,4 @@
-"""RollingWheelJoint: a wheel without mass that rolls on the road without slip."""
+"""RollingWheelJoint: massless wheel rolling on the road without slip."""
 
 from __future__ import annotations
 
@@ -29,32 +29,31 @@ from acausal import (
 )
 from components.frame import Frame, pose
 
-# Force that holds the wheel down, relative to the largest one that carries it: less is error of the integration.
+# Tensile road force over the largest compressive one: smaller values are integration errors.
 HELD_DOWN = 1e-3
 
 
 def wheel_angles(T: Any) -> Expr:
-    """Angles of three turns about z, y and x, each about the turned axis.
+    """Angles of three successive rotations about z, y and x, each about the rotated axis.
 
-    Of both solutions the one with the third angle within 90 degrees is taken: of an upright wheel, the first is the
-    heading, the second the angle that the wheel has rolled by, and the third is 0.
+    Of the two solutions, the third angle is within 90 degrees: for an upright wheel, the first angle is the heading, the
+    second the rolling angle, and the third is 0.
     """
     about_x = atan2(T[1, 2] * T[2, 2], T[2, 2] * T[2, 2])
     s, c = sin(about_x), cos(about_x)
-    e_y = c * T[1] - s * T[2]  # the axes y and z before the third turn, resolved in the world
+    e_y = c * T[1] - s * T[2]  # the axes y and z before the third rotation, resolved in the world
     e_z = s * T[1] + c * T[2]
     return as_expr((atan2(-e_y[0], e_y[1]), atan2(-T[0, 2], e_z[2]), about_x))
 
 
 class RollingWheelJoint(Component):
-    """Wheel without mass that rolls on the plane z = 0 of the world without slip.
+    """Massless wheel rolling on the plane z = 0 of the world without slip.
 
     Notes
     -----
-    With the normal u of the road and the axis e of the wheel, l = u x e / |u x e| lies in both planes. The point that is
-    radius (e x l) below the centre touches the road; it moves neither along l nor along s = l x u, which are two
-    constraints of velocities. No branch: the body of the wheel moves freely, or joints guide it. The road also holds the
-    wheel down: a wheel that would lift off gives a warning.
+    With the normal u of the road and the axis e of the wheel, l = u x e / |u x e| lies in both planes. The contact point is
+    radius (e x l) from the centre; its velocity is 0 along l and along s = l x u (two nonholonomic constraints). No branch:
+    the body of the wheel moves freely, or joints guide it. The contact is bilateral: a tensile road force gives a warning.
     """
 
     ends = ("frame_a", "frame_a")
@@ -63,7 +62,7 @@ class RollingWheelJoint(Component):
         "whether the road carries the wheel",
         default=True,
         choices=(True, False),
-        doc="False where the wheel is held upright, with its centre at the height of its radius.",
+        doc="False if other parts keep the wheel upright, with its centre at the height of its radius.",
     )
     guides: bool = structural(
         "whether the road guides the wheel sideways",
@@ -75,7 +74,7 @@ class RollingWheelJoint(Component):
     x: Scalar = variable("x-coordinate of the centre, resolved in the world", unit="m")
     y: Scalar = variable("y-coordinate of the centre, resolved in the world", unit="m")
     angles: Vector3 = variable(
-        "angles from the world to frame_a about z, y and x, each about the turned axis; that about x is within 90 degrees",
+        "angles from the world to frame_a about z, y and x, each about the rotated axis; that about x within 90 degrees",
         unit="rad",
         select=NEVER,
     )
@@ -100,15 +99,15 @@ class RollingWheelJoint(Component):
 
     def contact(self) -> tuple[Expr, Expr, Expr, Expr]:
         """Directions u, l and s, and the position of the point of contact from the centre, resolved in frame_a."""
-        u, upright = self.frame_a.R.T[:, 2], self._upright()
+        u, upright = self.frame_a.R.T[:, 2], self._cos_camber()
         l = as_expr((-u[2], 0, u[0])) / upright
         return u, l, cross(l, u), as_expr((-u[0], 0, -u[2])) / upright * self.radius
 
     def requirements(self):
         name = self._path or type(self).__name__
         yield require(
-            self._upright() > 0.02,
-            f"{name} lies flat at the start, where no point of its rim is the lowest; start it upright, for instance "
+            self._cos_camber() > 0.02,
+            f"{name} lies flat at the start, where its rim has no lowest point; start it upright, for instance "
             "angles=fixed((0, 0, 0)), with y of its frame along the axis of the wheel, and z of the world upwards",
         )
 
@@ -116,24 +115,24 @@ class RollingWheelJoint(Component):
         u, w = self.frame_a.R.T[:, 2], self.frame_a.R.w
         yield apart(
             as_expr((u[0], u[2])),
-            u[1] * (w[2] * u[0] - w[0] * u[2]) / self._upright(),
+            u[1] * (w[2] * u[0] - w[0] * u[2]) / self._cos_camber(),
             self.f_n,
-            "it falls flat, where no point of its rim is the lowest. End the run before that, stop_time=..., or let it "
-            "roll faster",
+            "the wheel falls flat, where its rim has no lowest point. End the run before that, stop_time=..., or start at a "
+            "higher speed",
         )
         yield expect(
             (abs(self.f_n) - self.f_n) / 2,
             self.f_n,
             HELD_DOWN,
-            "it would lift off, and the road holds it down. Take a tyre, or a contact that opens",
+            "the wheel would lift off, but the bilateral contact pulls it down. Use a tyre, or a unilateral contact",
         )
 
     def shapes(self):
-        """The wheel, of a tenth of its radius in width."""
+        """The wheel, with a width of a tenth of its radius."""
         half = self.radius / 20
         yield geometry.Cylinder(pose(self.frame_a), (0, -half, 0), (0, half, 0), 2 * self.radius)
 
-    def _upright(self) -> Expr:
-        """|u x e|, the cosine of the lean."""
+    def _cos_camber(self) -> Expr:
+        """|u x e|, the cosine of the camber angle."""
         u = self.frame_a.R.T[:, 2]
         return sqrt(u[0] * u[0] + u[2] * u[2])

@@ -1,4 +1,4 @@
-"""RollingWheelSet: two wheels with mass on one axle, which roll on the road without slip."""
+"""RollingWheelSet: two wheels with mass on one axle, rolling on the road without slip."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from components.rolling_wheel_set_joint import RollingWheelSetJoint
 
 
 class RollingWheelSet(Component):
-    """Two wheels on one axle, each of which turns on its own; they roll on the plane z = 0 of the world without slip.
+    """Two independently rotating wheels on one axle, rolling on the plane z = 0 of the world without slip.
 
     Notes
     -----
-    It has five coordinates and two freedoms of velocity; all values that are named here hold at the start, 0 if not given.
+    Five coordinates, two degrees of freedom in velocity. Variables with start values are fixed initially, by default at 0.
     """
 
     ends = ("frame_middle", "frame_middle")
     R_wheel: Scalar = parameter("radius of each wheel", unit="m", positive=True)
     m_wheel: Scalar = parameter("mass of each wheel", unit="kg", minimum=0)
     I_wheel_axis: Scalar = parameter("moment of inertia of each wheel about the axle", unit="kg.m2", minimum=0)
-    I_wheel_long: Scalar = parameter("moment of inertia of each wheel across the axle", unit="kg.m2", minimum=0)
-    track: Scalar = parameter("distance of the wheels", unit="m", positive=True)
+    I_wheel_long: Scalar = parameter("moment of inertia of each wheel about a diameter", unit="kg.m2", minimum=0)
+    track: Scalar = parameter("track width", unit="m", positive=True)
     frame_middle: Frame = port(Frame, "middle of the axle, with y along it to wheel 1, z upwards")
     frame1: Frame = port(Frame, "centre of wheel 1, the left one, with y along the axle")
     frame2: Frame = port(Frame, "centre of wheel 2, the right one, with y along the axle")

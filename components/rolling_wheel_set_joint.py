@@ -1,4 +1,4 @@
-"""RollingWheelSetJoint: two wheels without mass on one axle, which roll on the road without slip."""
+"""RollingWheelSetJoint: two massless wheels on one axle, rolling on the road without slip."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from components.rolling_wheel_joint import RollingWheelJoint
 
 
 class RollingWheelSetJoint(Component):
-    """Two wheels without mass on one axle, each of which turns on its own; they roll on the plane z = 0 of the world.
+    """Two massless, independently rotating wheels on one axle, rolling on the plane z = 0 of the world.
 
     Notes
     -----
     der(x) sin(phi) = der(y) cos(phi), and der(x) cos(phi) + der(y) sin(phi) = radius der_theta1 + track / 2 der(phi)
-    = radius der_theta2 - track / 2 der(phi): five coordinates, two freedoms of velocity. The axle stays level.
+    = radius der_theta2 - track / 2 der(phi): five coordinates, two degrees of freedom in velocity. The axle stays level.
     """
 
     ends = ("frame_middle", "frame_middle")
     radius: Scalar = parameter("radius of each wheel", unit="m", positive=True)
-    track: Scalar = parameter("distance of the wheels", unit="m", positive=True)
+    track: Scalar = parameter("track width", unit="m", positive=True)
     frame_middle: Frame = port(Frame, "middle of the axle, with y along it to wheel 1, z upwards")
     frame1: Frame = port(Frame, "centre of wheel 1, the left one, with y along the axle")
     frame2: Frame = port(Frame, "centre of wheel 2, the right one, with y along the axle")
@@ -59,7 +59,7 @@ class RollingWheelSetJoint(Component):
 
     @part
     def rolling1(self):
-        """Contact of wheel 1, which guides the axle sideways."""
+        """Contact of wheel 1, with the lateral constraint of the axle."""
         return RollingWheelJoint(radius=self.radius, carries=False)
 
     @part

@@ -1,4 +1,4 @@
-"""Rope: an elastic rope over points without friction."""
+"""Rope: elastic rope over frictionless points."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class Rope(HeatLoss, TwoFrames):
-    """Massless elastic rope from frame_a over the origins of frame_1, frame_2, ... to frame_b, which only pulls.
+    """Massless elastic rope from frame_a over the origins of frame_1, frame_2, ... to frame_b, without compression.
 
     Notes
     -----
-    Where the rope is taut, s > length, its tension is f = max(0, c (s - length) + d der(s)). It is the same everywhere, as the
-    points are massless and without friction: pulleys whose radius is 0. At each point it acts along both parts of the rope,
-    which have no direction where neighbouring points meet: a run in which they meet with tension ends with an error.
+    If the rope is taut, s > length, the tension is f = max(0, c (s - length) + d der(s)). It is uniform because the points
+    are massless and frictionless, like pulleys of zero radius. At each point it acts along both adjacent segments. If
+    neighbouring points meet under tension, the segment between them has no direction and the run ends with an error.
 
-    No branch: the rope relates no orientations, each frame must be held by something else.
+    No branch: the rope does not relate orientations; other parts must hold each frame.
     """
 
     points: int = structural(
-        "number of points between the ends", default=0, cls=int, minimum=0, doc="Their ports are frame_1, frame_2, ..."
+        "number of points between the ends", default=0, cls=int, minimum=0, doc="Its ports are frame_1, frame_2, ..."
     )
     c: Scalar = parameter("spring constant of the whole rope", unit="N/m", positive=True, doc="E A / length.")
     d: Scalar = parameter("damping constant of the whole rope", unit="N.s/m", default=0, minimum=0)
@@ -47,23 +47,23 @@ class Rope(HeatLoss, TwoFrames):
         unit="m",
         default=0,
         minimum=0,
-        doc="0: the length of the way over all points at the start.",
+        doc="0: the initial length of the path.",
     )
     s_small: Scalar = parameter(
-        "smallest distance of points used as a divisor",
+        "smallest distance between points used as a divisor",
         unit="m",
         default=1e-10,
         positive=True,
-        doc="Shorter distances are replaced by it where the directions of the rope are computed.",
+        doc="Lower bound of the distances in the directions of the segments.",
     )
-    s: Scalar = variable("length of the way over all points", unit="m")
+    s: Scalar = variable("length of the path over all points", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")
     f: Scalar = variable("tension, not negative", unit="N")
-    length_0: Scalar = discrete("unstretched length that counts", unit="m", start=piecewise((length, length > 0), s))
+    length_0: Scalar = discrete("effective unstretched length", unit="m", start=piecewise((length, length > 0), s))
 
     @ports
     def over(self) -> dict[str, Frame]:
-        """Frames whose origins the rope passes."""
+        """Frames of the intermediate points."""
         return {f"frame_{k + 1}": Frame() for k in range(self.points)}
 
     def equations(self):
@@ -81,8 +81,8 @@ class Rope(HeatLoss, TwoFrames):
         for part, (one, other) in zip(self._offsets(), pairwise(self._names()), strict=True):
             yield require(
                 norm(part) > 1.5 * self.s_small,
-                f"{one} and {other} of {name} coincide at the start, so that the rope has no direction there; place them apart, "
-                "or leave one of them out",
+                f"{one} and {other} of {name} coincide at the start and the rope between them has no direction; separate them, "
+                "or omit one of them",
             )
 
     def validity(self):
@@ -91,12 +91,12 @@ class Rope(HeatLoss, TwoFrames):
                 part,
                 rate,
                 self.f,
-                f"{one} and {other} meet, where the rope has no direction. Let them pass beside each other, for instance by "
-                "FixedTranslation(r=...), or hold them apart by a stop that acts before",
+                f"{one} and {other} meet, where the rope has no direction. Offset their paths, for instance by "
+                "FixedTranslation(r=...), or add a stop that keeps them apart",
             )
 
     def shapes(self):
-        """Its straight parts."""
+        """The straight segments."""
         for one, other in pairwise(self._frames()):
             yield geometry.Span(one.r_0, other.r_0)
 
@@ -109,7 +109,7 @@ class Rope(HeatLoss, TwoFrames):
         return (self.f - self.c * self._stretch()) * self.v
 
     def _stretch(self) -> Expr:
-        """Elongation, 0 where the rope is slack."""
+        """Elongation, 0 for a slack rope."""
         elongation = self.s - self.length_0
         return (elongation + abs(elongation)) / 2
 
@@ -123,7 +123,7 @@ class Rope(HeatLoss, TwoFrames):
         return [self.frame_a, *self.over.values(), self.frame_b]
 
     def _offsets(self) -> list[Any]:
-        """Vectors along the parts of the rope, resolved in the world."""
+        """Vectors along the segments, resolved in the world."""
         return [other.r_0 - one.r_0 for one, other in pairwise(self._frames())]
 
     def _lengths(self) -> list[Any]:

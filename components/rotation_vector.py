@@ -1,4 +1,4 @@
-"""Orientations by rotation vectors, with values and derivatives where there is no turn."""
+"""Orientations by rotation vectors, regular at zero rotation."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 from acausal import as_expr, atan2, cos, cross, piecewise, sin, sqrt
 from components.orientation import outer_product, skew
 
-# Added to the square of an angle: below the square root of the rounding error, so that no sine or cosine changes by it.
+# Added to the square of an angle in rad2: its root, 1e-15 rad, is below round-off of any sine or cosine.
 NOTHING = 1e-30
-# Square of an angle in rad2 below which series replace quotients that tend to 0 / 0; the first term left out is below rounding.
+# Square of an angle in rad2 below which series replace quotients 0 / 0; their first neglected term is below round-off.
 SMALL = 0.02
 
 
 def attitude(m: Any) -> Any:
-    """Matrix that turns world components into those of a frame turned by a rotation vector, shape (3, 3).
+    """Rotation matrix from the world to a frame rotated by a rotation vector, shape (3, 3).
 
     Parameters
     ----------
@@ -30,17 +30,17 @@ def attitude(m: Any) -> Any:
 
 
 def rate(m: Any, w: Any) -> Any:
-    """Rate J(m) w of a rotation vector, shape (3,); it has no value after a full turn.
+    """Rate J(m) w of a rotation vector, shape (3,); singular at a full turn.
 
     With the angle phi = |m|, J(m) w = w + m x w / 2 + (1 - phi / 2 cot(phi / 2)) / phi^2 m x (m x w). As J(m)' = J(-m), it also
-    takes a generalised torque g, of power g . der(m), to the torque J(m)' g = rate(-m, g), of power t . w.
+    maps a generalised torque g, with power g . der(m), to the torque J(m)' g = rate(-m, g), with power t . w.
 
     Parameters
     ----------
     m : Expr, shape (3,)
         Rotation vector in rad.
     w : Expr, shape (3,)
-        Angular velocity in rad/s, resolved in the turned frame; resolved in the frame before the turn with -m for m in J.
+        Angular velocity in rad/s, resolved in the rotated frame; with J(-m), in the frame before the rotation.
     """
     square, turned = m @ m, cross(m, w)
     safe = piecewise((square, square > SMALL), SMALL, smooth=True)
@@ -51,7 +51,7 @@ def rate(m: Any, w: Any) -> Any:
 
 
 def rotation_vector(T: Any) -> Any:
-    """Rotation vector in rad of a rotation matrix, shape (3,), up to half a turn; the inverse of `attitude`.
+    """Rotation vector in rad of a rotation matrix, shape (3,), up to half a turn; inverse of `attitude`.
 
     T - T' has the axial vector -2 sin(phi) n and T the trace 1 + 2 cos(phi): the result is phi / sin(phi) times sin(phi) n.
 
@@ -74,7 +74,7 @@ def sine_axis(T: Any) -> Any:
 
 
 def _polynomial(x: Any, coefficients: tuple[float, ...]) -> Any:
-    """Sum of coefficients times powers of x, from the constant on (Horner)."""
+    """Polynomial with coefficients in ascending order, by Horner's scheme."""
     total = as_expr(coefficients[-1])
     for coefficient in coefficients[-2::-1]:
         total = coefficient + x * total

@@ -1,4 +1,4 @@
-"""Rotor1D: a rotor on a moving body."""
+"""Rotor1D: rotor on a moving body."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from components.world import require_direction
 
 
 class Rotor1D(TwoFlanges):
-    """Rotor of a drive train whose housing is fixed to frame_a.
+    """Rotor of a drive train with its housing fixed to frame_a.
 
     Notes
     -----
     J (a + e . z) = tau_a + tau_b,  t = w_a x (J w e) - J (e . z) e, with e along n and w_a, z the angular velocity and
-    acceleration of frame_a. Its mass, and its inertia as if it were locked, belong to the body that carries it. The torques of
-    the drive train act back on a body by a Mounting1D or a BevelGear1D.
+    acceleration of frame_a. The mass and the inertia of the locked rotor belong to the carrying body. A Mounting1D or a
+    BevelGear1D applies the reaction torques of the drive train to a body.
     """
 
     J: Scalar = parameter("moment of inertia about n", unit="kg.m2", minimum=0)
-    n: Any = structural("axis of rotation, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0.")
+    n: Any = structural("rotation axis, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length.")
     exact: bool = structural(
         "whether the angular acceleration of frame_a accelerates the rotor", default=True, choices=(True, False)
     )
-    reaction: bool = effect("torque on the body that carries it", default=True)
+    reaction: bool = effect("reaction torque on the carrying body", default=True)
     frame_a: Frame = port(Frame, "housing of the rotor")
     phi: Scalar = variable("angle relative to frame_a", unit="rad", select=PREFER)
     w: Scalar = variable("der(phi)", unit="rad/s", select=PREFER)
     a: Scalar = variable("der(w)", unit="rad/s2")
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
     def equations(self):
@@ -48,7 +48,7 @@ class Rotor1D(TwoFlanges):
         yield frame.t == (cross(frame.R.w, e * (self.J * self.w)) - e * carried if self.reaction else (0, 0, 0))
 
     def stored_energy(self):
-        """Kinetic energy, beyond that of the locked rotor."""
+        """Kinetic energy in excess of the locked rotor."""
         return self.J * self.w * (self.w / 2 + dot(unit_vector(self.n), self.frame_a.R.w))
 
     def shapes(self):

@@ -11,14 +11,14 @@ from components.revolute import Revolute
 
 
 class ScrewJoint(Revolute):
-    """Screw joint: frame_b turns about the axis n and advances along it by `pitch` each turn.
+    """Screw joint: frame_b rotates about the axis n and advances along it by `pitch` per turn.
 
     Notes
     -----
-    s = pitch phi / (2 pi). A pitch greater than 0 is a right-handed thread; there is no backlash. The drive turns frame_b.
+    s = pitch phi / (2 pi). A positive pitch is a right-handed thread; there is no backlash. The drive rotates frame_b.
     """
 
-    pitch: Scalar = parameter("way along n in one turn", unit="m")
+    pitch: Scalar = parameter("advance along n per turn", unit="m")
     s: Scalar = variable("distance from frame_a to frame_b along n", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")
 
@@ -34,7 +34,7 @@ class ScrewJoint(Revolute):
         yield from move(a, b, r, R)
         yield a.f == -f_b
         yield a.t == -resolve1(R, b.t) - cross(r, f_b)
-        yield self.tau - self.resisting(self._drag()) == -dot(n, b.t) - lead * dot(n, b.f)
+        yield self.tau - self.friction_load(self._drag()) == -dot(n, b.t) - lead * dot(n, b.f)
         yield from self.drive()
 
     def shapes(self):

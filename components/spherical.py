@@ -17,32 +17,32 @@ from components.orientation import (
 
 
 class Spherical(TwoFrames):
-    """Spherical joint: the origins coincide, frame_b turns freely relative to frame_a.
+    """Spherical joint: the origins coincide, frame_b rotates freely relative to frame_a.
 
     Notes
     -----
-    The states are a quaternion, which has no singular position, and w_rel.
+    The states are a quaternion, which has no singular orientation, and w_rel.
     """
 
     start_words: ClassVar[dict[str, str]] = {"Q": "angles_fixed=True"}
     angles_start: Any = structural(
-        "angles at the start, in rad",
+        "initial angles, in rad",
         default=(0, 0, 0),
         shape=(3,),
-        doc="The orientation of frame_b relative to frame_a.",
+        doc="Orientation of frame_b relative to frame_a.",
     )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,), choices=(1, 2, 3))
-    angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
+    angles_fixed: bool = structural("whether the initial angles are fixed", default=False, choices=(True, False))
     Q_start: Any = structural(
         "quaternion of these angles",
         default=lambda s: quaternion_of(axes_rotations(s.sequence_start, s.angles_start)),
         shape=(4,),
-        doc="Vector part, scalar part; from the angles if not given.",
+        doc="Vector part, scalar part; computed from the angles if not given.",
     )
     Q: Any = variable("quaternion from frame_a to frame_b", shape=(4,), start=Q_start, select=PREFER)
-    w_rel: Vector3 = variable("angular velocity from frame_a, resolved in frame_b", unit="rad/s", select=PREFER)
+    w_rel: Vector3 = variable("relative angular velocity, resolved in frame_b", unit="rad/s", select=PREFER)
     z_rel: Vector3 = variable("der(w_rel)", unit="rad/s2")
-    w_rel_a: Vector3 = variable("angular velocity of frame_b from frame_a, resolved in frame_a", unit="rad/s")
+    w_rel_a: Vector3 = variable("relative angular velocity, resolved in frame_a", unit="rad/s")
 
     def connections(self):
         yield branch(self.frame_a, self.frame_b)

@@ -1,4 +1,4 @@
-"""SphericalSpherical: a rod with a ball joint at each end."""
+"""SphericalSpherical: rod with a ball joint at each end."""
 
 from __future__ import annotations
 
@@ -13,30 +13,30 @@ from components.world import World
 
 
 class SphericalSpherical(TwoFrames):
-    """Rod with a ball joint at each end, which keeps the distance of frame_a and frame_b; its mass, if any, is in the middle.
+    """Rod with a ball joint at each end: constant distance of frame_a and frame_b, optional point mass at the midpoint.
 
     Notes
     -----
-    |r_b - r_a| = rod_length; with compute_rod_length=True, what it is at the start, for which one more position is given. The
-    point mass m divides the part of its force across the rod between the ends; the part along the rod acts at frame_b, beside
-    f_rod.
+    |r_b - r_a| = rod_length; with compute_rod_length=True the initial distance, which requires one more fixed position. The
+    transverse component of the inertia load of m is divided equally between the ends; its axial component acts at frame_b,
+    in addition to f_rod.
     """
 
     compute_rod_length: bool = structural(
-        "whether the length is the distance at the start", default=False, choices=(True, False)
+        "whether the length is the initial distance", default=False, choices=(True, False)
     )
     rod_length: Scalar = parameter(
-        "distance of the origins of frame_a and frame_b",
+        "distance between the origins of frame_a and frame_b",
         unit="m",
-        default=lambda self: 1.0 if self.compute_rod_length else 0.0,  # 0 is refused: it is to be given
+        default=lambda self: 1.0 if self.compute_rod_length else 0.0,  # 0 is invalid: a mandatory parameter
         positive=True,
         doc="A guess with compute_rod_length=True.",
     )
-    m: Scalar = parameter("mass, in the middle of the rod", unit="kg", default=0, minimum=0)
+    m: Scalar = parameter("mass at the midpoint of the rod", unit="kg", default=0, minimum=0)
     f_rod: Scalar = variable("force along the rod on frame_a, positive towards frame_b", unit="N")
     length: Scalar = variable("length of the rod", unit="m", start=rod_length)
     length_start: Any = variable(
-        "its state with compute_rod_length=True",
+        "length as a state, with compute_rod_length=True",
         unit="m",
         shape=lambda self: (1,) if self.compute_rod_length else (0,),
         start=rod_length,
@@ -67,7 +67,7 @@ class SphericalSpherical(TwoFrames):
         return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._middle()))
 
     def supplied_power(self):
-        """Power of gravity that has no potential."""
+        """Power of gravity without a potential."""
         return self.world.power(self.m, self._middle(), self._velocity())
 
     def shapes(self):

@@ -1,4 +1,4 @@
-"""Spring: a linear spring between two frames."""
+"""Spring: linear spring between two frames."""
 
 from __future__ import annotations
 
@@ -7,12 +7,10 @@ from components.mass_on_line import MassOnLine
 
 
 class Spring(MassOnLine):
-    """Linear spring along the line from frame_a to frame_b, with a point mass on it if m is given."""
+    """Linear spring along the line from frame_a to frame_b, with an optional point mass m on the line."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
-    s_unstretched: Scalar = parameter(
-        "unstretched length", unit="m", default=0, minimum=0, doc="There it bears no force."
-    )
+    s_unstretched: Scalar = parameter("unstretched length", unit="m", default=0, minimum=0, doc="The force is 0 there.")
 
     def law(self):
         """Hooke's law."""

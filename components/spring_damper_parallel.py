@@ -1,4 +1,4 @@
-"""SpringDamperParallel: a spring and a damper in parallel between two frames."""
+"""SpringDamperParallel: spring and damper in parallel between two frames."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class SpringDamperParallel(HeatLoss, LineForce):
-    """Linear spring and linear damper along the line from frame_a to frame_b."""
+    """Linear spring and damper in parallel along the line from frame_a to frame_b."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
     d: Scalar = parameter("damping constant", unit="N.s/m", default=0, minimum=0)
     s_unstretched: Scalar = parameter(
-        "unstretched length", unit="m", default=0, minimum=0, doc="There the spring bears no force."
+        "unstretched length", unit="m", default=0, minimum=0, doc="The spring force is 0 there."
     )
 
     def law(self):

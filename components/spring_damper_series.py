@@ -1,4 +1,4 @@
-"""SpringDamperSeries: a spring and a damper in series between two frames."""
+"""SpringDamperSeries: spring and damper in series between two frames."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class SpringDamperSeries(HeatLoss, LineForce):
-    """Linear damper from frame_a on, and linear spring from there to frame_b, along one line."""
+    """Linear damper at frame_a and linear spring at frame_b in series, along the line from frame_a to frame_b."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
     d: Scalar = parameter("damping constant", unit="N.s/m", positive=True)
     s_unstretched: Scalar = parameter(
-        "unstretched length of the spring", unit="m", default=0, minimum=0, doc="There it bears no force."
+        "unstretched length of the spring", unit="m", default=0, minimum=0, doc="The force is 0 there."
     )
     s_damper: Scalar = variable("length of the damper", unit="m", start=0, fixed=True)
 
     def law(self):
-        """One force in the spring and in the damper."""
+        """Equal force in spring and damper."""
         yield self.f == self.c * (self.s - self.s_unstretched - self.s_damper)
         yield self.d * der(self.s_damper) == self.f
 

@@ -1,4 +1,4 @@
-"""The table of all parts: what they are, their domains and ports, read from their classes."""
+"""Table of all parts with summary, domains and ports, read from their classes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from acausal import Component, Connector, Record
 
 @dataclass(frozen=True)
 class Entry:
-    """A part: where it is found in `components`, its class, what it is, its domains, and its ports with their connectors."""
+    """A part: its name in `components`, class, summary line, domains, and ports with their connectors."""
 
     name: str
     cls: type[Component]
@@ -28,13 +28,13 @@ class Entry:
         return f"{self.name}: {self.line}\n    {self.shown_ports()}"
 
     def shown_ports(self) -> str:
-        """Ports of one kind together: `flange_a, flange_b: Flange; tau: input in N.m`."""
+        """Ports grouped by kind: `flange_a, flange_b: Flange; tau: input in N.m`."""
         kinds = dict.fromkeys(self.ports.values())
         return "; ".join(f"{', '.join(n for n, k in self.ports.items() if k == kind)}: {kind}" for kind in kinds)
 
 
 class Table(tuple[Entry, ...]):
-    """Parts, printed by domains, and as a table in notebooks."""
+    """Parts, printed by domain, and displayed as a table in notebooks."""
 
     __slots__ = ()
 
@@ -44,19 +44,19 @@ class Table(tuple[Entry, ...]):
         return "\n\n".join(blocks)
 
     def _repr_html_(self) -> str:
-        rows = [("part", "what it is", "domain", "ports")]
+        rows = [("part", "summary", "domain", "ports")]
         rows += [(e.name, e.line, e.domain, e.shown_ports()) for e in self]
         cells = ["".join(f"<td>{escape(text)}</td>" for text in row) for row in rows]
         return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
 
 def table(word: str = "") -> Table:
-    """Return all parts that `components` and its packages export, without connectors, records and bases.
+    """Return all parts exported by `components` and its packages, without connectors, records and bases.
 
     Parameters
     ----------
     word : str
-        Only parts with it in their name or domain, such as "rotational" or "spring".
+        Select parts whose name or domain contains it, such as "rotational" or "spring".
     """
     found: dict[type, str] = {}
     for prefix, package in _packages():
@@ -65,12 +65,12 @@ def table(word: str = "") -> Table:
             if inspect.isclass(cls) and issubclass(cls, Component) and not issubclass(cls, Connector | Record):
                 found.setdefault(cls, prefix + name)
     entries = [Entry(name, cls, _line(cls), _domain(cls), _ports(cls)) for cls, name in found.items()]
-    kept = [e for e in entries if not e.line.startswith("Base") and word.lower() in f"{e.name} {e.domain}".lower()]
-    return Table(sorted(kept, key=lambda e: (e.domain, e.name)))
+    selected = [e for e in entries if not e.line.startswith("Base") and word.lower() in f"{e.name} {e.domain}".lower()]
+    return Table(sorted(selected, key=lambda e: (e.domain, e.name)))
 
 
 def _packages() -> Iterator[tuple[str, ModuleType]]:
-    """Yield `components` and the packages in it, each with what stands before its names."""
+    """Yield `components` and its packages, each with the prefix of its names."""
     top = import_module("components")
     yield "", top
     for module in iter_modules(top.__path__):
@@ -79,12 +79,12 @@ def _packages() -> Iterator[tuple[str, ModuleType]]:
 
 
 def _line(cls: type) -> str:
-    """Return the first line of the docstring; that of a base begins with "Base"."""
+    """Return the first line of the docstring, which begins with "Base" for base classes."""
     return (inspect.getdoc(cls) or "").partition("\n")[0]
 
 
 def _domain(cls: type[Component]) -> str:
-    """Return the domains of the ports that are always there, of optional ones where there is no other."""
+    """Return the domains of the mandatory ports, or of the optional ports if there are no others."""
     connectors = [d.connector for d in cls.fields.values() if d.connector]
     always = [text for text in connectors if not text.endswith("optional")] or connectors
     known = {kind.__name__: kind.domain for kind in _subclasses(Connector) if hasattr(kind, "domain")}
@@ -99,7 +99,7 @@ def _subclasses(cls: type) -> Iterator[type]:
 
 
 def _ports(cls: type[Component]) -> dict[str, str]:
-    """Return connectors, inputs and outputs by their names."""
+    """Return connectors, inputs and outputs by name."""
     ports = {name: d.connector for name, d in cls.fields.items() if d.connector}
     for name, d in cls.fields.items():
         causality = getattr(d, "causality", "")

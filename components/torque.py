@@ -1,4 +1,4 @@
-"""Torque: a torque between two frames."""
+"""Torque: torque between two frames."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from components.load import NONE, FrameLoad
 
 
 class Torque(FrameLoad):
-    """Torque that acts at frame_b, and in the opposite sense at frame_a."""
+    """Torque at frame_b; the opposite torque acts at frame_a."""
 
     torque: Vector3 = input("torque at frame_b, resolved in resolve_in_frame", unit="N.m")
 
     def load(self):
-        """Torque alone."""
+        """Torque without force."""
         return NONE, self.torque
 
     def shapes(self):

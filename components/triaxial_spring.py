@@ -1,4 +1,4 @@
-"""TriaxialSpring: springs and dampers along three axes."""
+"""TriaxialSpring: linear springs and dampers along three axes."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ class TriaxialSpring(HeatLoss, TwoFrames):
     Notes
     -----
     f = f_0 + diag(c) (r_rel - r_rel0) + diag(d) v_rel. At frame_a the opposite force acts, with the moment r_rel x f. No branch:
-    the component relates no orientations, each end must be held by something else.
+    the component does not relate the orientations of its ends; other parts must hold both.
     """
 
     c: Vector3 = parameter("stiffness along the axes of frame_a", unit="N/m", minimum=0)
     d: Vector3 = parameter("damping along the axes of frame_a", unit="N.s/m", default=(0, 0, 0), minimum=0)
     r_rel0: Vector3 = parameter(
-        "position of frame_b from frame_a without elastic force, resolved in frame_a", unit="m", default=(0, 0, 0)
+        "position of frame_b from frame_a at zero elastic force, resolved in frame_a", unit="m", default=(0, 0, 0)
     )
     f_0: Vector3 = parameter("preload: force f at r_rel0, resolved in frame_a", unit="N", default=(0, 0, 0))
     r_rel: Vector3 = variable("position of frame_b from frame_a, resolved in frame_a", unit="m")
     v_rel: Vector3 = variable("der(r_rel)", unit="m/s")
-    f: Vector3 = variable("force, positive if it pulls frame_b back to frame_a, resolved in frame_a", unit="N")
+    f: Vector3 = variable("restoring force on frame_b, resolved in frame_a", unit="N")
 
     def equations(self):
         yield from super().equations()
@@ -39,14 +39,14 @@ class TriaxialSpring(HeatLoss, TwoFrames):
         yield self.f == f
         yield a.f == -self.f
         yield a.t == -t - cross(self.r_rel, self.f)
-        yield b.f == self.turn() @ self.f
-        yield b.t == self.turn() @ t
+        yield b.f == self.rotation_matrix() @ self.f
+        yield b.t == self.rotation_matrix() @ t
 
     def load(self) -> tuple[Any, Any]:
         """Force and torque at frame_b, resolved in frame_a."""
         return self._spring() + self.d * self.v_rel, np.zeros(3)
 
-    def turn(self) -> Any:
+    def rotation_matrix(self) -> Any:
         """Rotation matrix from frame_a to frame_b."""
         return self.frame_b.R.T @ self.frame_a.R.T.T
 

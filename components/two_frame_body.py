@@ -13,9 +13,9 @@ from components.rigid import unusual_inertia, wrong_inertia
 
 
 class TwoFrameBody(TwoFrames, MovingBody):
-    """Base of rigid bodies with frame_a and, at r from it, frame_b; a subclass declares r, m, r_CM and I."""
+    """Base of rigid bodies with frame_b at r from frame_a; a subclass declares r, m, r_CM and I."""
 
-    gyroscopic: bool = effect("gyroscopic torque w x I w", default=True, doc="False leaves it out, as of Body.")
+    gyroscopic: bool = effect("gyroscopic torque w x I w", default=True, doc="False omits it, as in Body.")
     r: Any
     m: Any
     r_CM: Any
@@ -23,7 +23,7 @@ class TwoFrameBody(TwoFrames, MovingBody):
 
     @part
     def frame_translation(self):
-        """From frame_a to frame_b."""
+        """Rigid connection of frame_a and frame_b."""
         return FixedTranslation(r=self.r)
 
     @part
@@ -48,7 +48,7 @@ class TwoFrameBody(TwoFrames, MovingBody):
         yield connect(self.frame_translation.frame_b, self.frame_b)
 
     def shapes(self):
-        """A rod from frame to frame, and the centre of mass."""
+        """A rod between the frames, and the centre of mass."""
         yield from (*self.frame_translation.shapes(), *self.body.shapes())
 
     def requirements(self):

@@ -29,31 +29,31 @@ from components.orientation import parallel, resolve1, resolve2, two_axes_rotati
 from components.thermal.heat_loss import HeatLoss
 from components.world import require_direction
 
-# Sliding speed in m/s below which the friction of an unloaded tyre is linear, so that no force is 0 / 0 in the air: far below the
-# creep of a wheel that stands.
+# Sliding speed in m/s that regularises the friction of an unloaded tyre, whose force would be 0 / 0 in the air: far below the
+# creep speed at standstill.
 V_SMALL = 1e-7
-# Cosine of the angle between the wheel's plane and the normal of the ground, 60 degrees: a tyre does not roll on its sidewall.
+# Cosine of 60 degrees, the limit of the angle between wheel plane and ground normal: a tyre does not roll on its sidewall.
 UPRIGHT = 0.5
 
 
 class Tyre(HeatLoss):
-    """Tyre on a ground that is plane or has a height: radial spring and damper, slip forces within the friction ellipse.
+    """Tyre on flat or uneven ground: radial spring and damper, slip forces within the friction ellipse.
 
     Notes
     -----
-    All forces act at the contact point, which lies on the ground, in the plane of the wheel, and nearest to its centre. There
-    e_z is the normal of the ground, e_x = e_z x n / |e_z x n| the direction of rolling, and e_y = e_z x e_x. In its plane the
-    wheel carries f_z |e_z x n| = c_z delta + d_z der(delta), delta = R_0 - radius, where the damper is limited to the spring, so
-    that the tyre only pushes.
+    All forces act at the contact point, the point of the ground in the wheel plane closest to the wheel centre, with the
+    ground normal e_z, the rolling direction e_x = e_z x n / |e_z x n|, and e_y = e_z x e_x. The radial force in the wheel plane
+    is f_z |e_z x n| = c_z delta + d_z der(delta), delta = R_0 - radius, with the damper limited to the spring, so that the tyre
+    is never adhesive.
 
-    A carcass (c_x = c_kappa / sigma_x, d_x) lies in series with a contact patch that slides with the velocity s [1, 7.2; 2, 3.4]:
-    f_x = c_x u_x + d_x der(u_x), s_x = v_x + der(u_x), alike for y, and with theoretical slips s / v_t [1, 4.3]
+    A carcass (c_x = c_kappa / sigma_x, d_x) is in series with a contact patch of sliding velocity s [1, 7.2; 2, 3.4]:
+    f_x = c_x u_x + d_x der(u_x), s_x = v_x + der(u_x), likewise for y, and with theoretical slips s / v_t [1, 4.3]
 
     (f_x, f_y) = -mu f_z (c_kappa s_x, c_alpha s_y) / sqrt((mu f_z v_t)^2 + (c_kappa s_x)^2 + (c_alpha s_y)^2),
 
-    v_t^2 = (radius w)^2 + v_low^2. For small slip that is f_x = -c_kappa s_x / v_t with the relaxation length sigma_x; the force
-    never exceeds mu f_z. A standing wheel creeps by v_low f / c_kappa. No camber thrust, pneumatic trail, or rolling
-    resistance. The radius of curvature of the ground is greater than that of the wheel.
+    v_t^2 = (radius w)^2 + v_low^2. Small slip gives f_x = -c_kappa s_x / v_t with the relaxation length sigma_x; the force
+    never exceeds mu f_z. At standstill the wheel creeps at v_low f / c_kappa. Camber thrust, pneumatic trail and rolling
+    resistance are neglected. The radius of curvature of the ground must exceed that of the wheel.
 
     References
     ----------
@@ -63,7 +63,7 @@ class Tyre(HeatLoss):
 
     ends = ("frame_a", "")
     n: Any = structural(
-        "axis of the wheel, resolved in frame_a", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of the wheel, resolved in frame_a", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     up: Any = structural(
         "direction of the height of the ground, resolved in the world",
@@ -75,17 +75,17 @@ class Tyre(HeatLoss):
         "direction of x on the ground, resolved in the world",
         default=(1, 0, 0),
         shape=(3,),
-        doc="Its part normal to up counts; y is along up x n_x.",
+        doc="Its component normal to up is used; y is along up x n_x.",
     )
     use_axis_flange: bool = structural(
-        "whether the wheel turns relative to frame_a",
+        "whether the wheel rotates relative to frame_a",
         default=False,
         choices=(True, False),
-        doc="True gives the tyre a shaft `axis`, by which it turns with a Rotor1D; frame_a is fixed to the upright, and motions "
-        "at constant speed have no quantities that oscillate with the wheel.",
+        doc="True adds the shaft `axis`, to be connected to a Rotor1D, with frame_a fixed to the upright: at constant speed no "
+        "variable then oscillates with the wheel rotation.",
     )
     height: Any = structural(
-        "height of the ground in m as a function of the place",
+        "height of the ground in m as a function of the position",
         default=None,
         choices=(None, callable),
         doc="height(x, y) along up, from the origin of the world; smooth. None is the plane through the origin.",
@@ -103,21 +103,21 @@ class Tyre(HeatLoss):
         unit="N.s/m",
         default=lambda s: s.d_z / s.c_z * s.c_kappa / s.sigma_x,
         positive=True,
-        doc="Damps as fast as d_z if not given.",
+        doc="Default: the time constant d_z / c_z.",
     )
     d_y: Scalar = parameter(
         "lateral damping constant of the carcass",
         unit="N.s/m",
         default=lambda s: s.d_z / s.c_z * s.c_alpha / s.sigma_y,
         positive=True,
-        doc="Damps as fast as d_z if not given.",
+        doc="Default: the time constant d_z / c_z.",
     )
     v_low: Scalar = parameter(
-        "speed of rolling below which slip fades into creep", unit="m/s", default=0.05, positive=True
+        "rolling speed below which slip changes to creep", unit="m/s", default=0.05, positive=True
     )
     frame_a: Frame = port(Frame, "at the centre of the wheel, fixed to it or, with a shaft, to the upright")
-    x: Scalar = variable("place of the contact point along n_x", unit="m")
-    y: Scalar = variable("place of the contact point along up x n_x", unit="m")
+    x: Scalar = variable("position of the contact point along n_x", unit="m")
+    y: Scalar = variable("position of the contact point along up x n_x", unit="m")
     radius: Scalar = variable("distance of the contact point from the centre", unit="m")
     deflection: Scalar = variable("R_0 - radius, positive in contact", unit="m")
     e_z: Vector3 = variable("normal of the ground, resolved in the world", unit="1", start=up)
@@ -136,20 +136,20 @@ class Tyre(HeatLoss):
 
     @port
     def axis(self) -> Flange | None:
-        """Shaft of the wheel, whose angle is relative to frame_a."""
+        """Shaft of the wheel, with its angle relative to frame_a."""
         return Flange() if self.use_axis_flange else None
 
     def check(self) -> None:
-        """Refuse directions of length 0, and a horizontal direction along the vertical."""
+        """Reject directions of length 0, and n_x parallel to up."""
         for name in ("n", "up", "n_x"):
             require_direction(self, getattr(self, name), name)
         if parallel(self.up, self.n_x):
-            raise DeclarationError("`n_x` lies along `up`; give a horizontal direction, such as n_x=(0, 0, 1).")
+            raise DeclarationError("`n_x` is parallel to `up`; give a horizontal direction, such as n_x=(0, 0, 1).")
 
     def requirements(self):
         name = self._path or type(self).__name__
         yield require(
-            self._upright() > UPRIGHT,
+            self._cos_camber() > UPRIGHT,
             f"the wheel of {name} starts inclined by more than 60 degrees; `n` is its axis, resolved in frame_a, and `up` the "
             "vertical, resolved in the world",
         )
@@ -159,7 +159,7 @@ class Tyre(HeatLoss):
         )
 
     def equations(self):
-        a, n, (e_x, e_y), slope = self.frame_a, unit_vector(self.n), self._directions(), self._upright()
+        a, n, (e_x, e_y), slope = self.frame_a, unit_vector(self.n), self._directions(), self._cos_camber()
         w = a.R.w + n * der(self.axis.phi) if self.use_axis_flange else a.R.w
         v = resolve1(a.R, a.v + cross(w, resolve2(a.R, self.arm)))
         force = self.f_x * e_x + self.f_y * e_y + self.f_z * self.e_z
@@ -180,7 +180,7 @@ class Tyre(HeatLoss):
             yield a.t == -torque
 
     def _contact_point(self) -> Any:
-        """Foot of the centre on the ground in the plane of the wheel: on the tangent plane at (x, y), and above (x, y)."""
+        """Yield the equations of the contact point: foot of the wheel centre, in the wheel plane, on the ground at (x, y)."""
         up, e_1, e_2 = two_axes_rotation(self.up, self.n_x)
         ground, slopes = self._ground()
         point = self.x * e_1 + self.y * e_2 + ground * up
@@ -188,14 +188,14 @@ class Tyre(HeatLoss):
         axis = self._axis()
         down = axis * dot(self.e_z, axis) - self.e_z
         yield self.e_z == normal / sqrt(dot(normal, normal))
-        yield self.radius == dot(self.e_z, self.frame_a.r_0 - point) / self._upright()
-        yield self.arm == self.radius / self._upright() * down
+        yield self.radius == dot(self.e_z, self.frame_a.r_0 - point) / self._cos_camber()
+        yield self.arm == self.radius / self._cos_camber() * down
         yield self.x == dot(e_1, self.frame_a.r_0 + self.arm)
         yield self.y == dot(e_2, self.frame_a.r_0 + self.arm)
         yield self.deflection == self.R_0 - self.radius
 
     def _slip(self) -> Any:
-        """Carcass in series with the contact patch."""
+        """Yield the equations of the carcass in series with the contact patch."""
         limit = self.mu * self.f_z
         pull_x, pull_y = self.c_kappa * self.s_x, self.c_alpha * self.s_y
         small = self.c_kappa * quantity(V_SMALL, "m/s")
@@ -208,12 +208,12 @@ class Tyre(HeatLoss):
         yield self.f_y == -limit * pull_y / size
 
     def _spring(self) -> Expr:
-        """Force of the spring, which only pushes."""
+        """Radial spring force, never adhesive."""
         free = self.c_z * self.deflection
         return (free + abs(free)) / 2
 
     def _damper(self) -> Expr:
-        """Force of the damper, between those of the spring and its opposite."""
+        """Radial damper force, limited to the magnitude of the spring force."""
         most, free = self._spring(), -self.d_z * self.v_z
         return (abs(free + most) - abs(free - most)) / 2
 
@@ -233,13 +233,13 @@ class Tyre(HeatLoss):
     def _axis(self) -> Expr:
         return resolve1(self.frame_a.R, unit_vector(self.n))
 
-    def _upright(self) -> Expr:
+    def _cos_camber(self) -> Expr:
         """Cosine of the inclination of the wheel from the normal of the ground."""
         across = cross(self.e_z, self._axis())
         return sqrt(dot(across, across))
 
     def _directions(self) -> tuple[Expr, Expr]:
-        e_x = cross(self.e_z, self._axis()) / self._upright()
+        e_x = cross(self.e_z, self._axis()) / self._cos_camber()
         return e_x, cross(self.e_z, e_x)
 
     def stored_energy(self):

@@ -11,10 +11,10 @@ from components.world import require_direction
 
 
 class Universal(TwoFrames):
-    """Universal joint: frame_b turns relative to frame_a about n_a, then about n_b."""
+    """Universal joint: frame_b rotates relative to frame_a about n_a, then about n_b."""
 
-    n_a: Any = structural("first axis, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0.")
-    n_b: Any = structural("second axis, resolved in frame_b", default=(0, 1, 0), shape=(3,), doc="Any length but 0.")
+    n_a: Any = structural("first axis, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any nonzero length.")
+    n_b: Any = structural("second axis, resolved in frame_b", default=(0, 1, 0), shape=(3,), doc="Any nonzero length.")
     phi_a: Scalar = variable("angle about n_a", unit="rad", select=PREFER)
     phi_b: Scalar = variable("angle about n_b", unit="rad", select=PREFER)
     w_a: Scalar = variable("der(phi_a)", unit="rad/s", select=PREFER)
@@ -23,7 +23,7 @@ class Universal(TwoFrames):
     a_b: Scalar = variable("der(w_b)", unit="rad/s2")
 
     def check(self) -> None:
-        """Refuse axes of length 0."""
+        """Reject axes of length 0."""
         require_direction(self, self.n_a, "n_a")
         require_direction(self, self.n_b, "n_b")
 

@@ -1,4 +1,4 @@
-"""UniversalSpherical: a rod with a universal joint and a ball joint at its ends."""
+"""UniversalSpherical: rod with a universal joint and a ball joint at its ends."""
 
 from __future__ import annotations
 
@@ -34,25 +34,25 @@ from components.orientation import (
 )
 from components.world import require_direction
 
-# Sine of the angle between the rod and n1_a that is taken for 0, as by parallel().
+# Sine of the angle between the rod and n1_a that counts as 0, as in parallel().
 ALONG = 1e-6
 
 
 class UniversalSpherical(TwoFrames):
-    """Massless rod with a universal joint at frame_a and a ball joint at frame_b; bodies of the rod are fixed to frame_ia.
+    """Massless rod with a universal joint at frame_a and a ball joint at frame_b; connect bodies of the rod to frame_ia.
 
     Notes
     -----
-    |r_b - r_a| = |r_rod_ia|, the only constraint. The first axis of the universal joint is n1_a, the second e2 is at right
-    angles to that and to the rod e1: e1, e2 = n1 x e1 / |n1 x e1| and e1 x e2 are the axes of frame_ia, which has no
-    coordinates of its own. No branch to frame_b: the rest of the machine holds it. No torque acts about n1 and e2.
+    |r_b - r_a| = |r_rod_ia| is the only constraint. The first axis of the universal joint is n1_a, the second axis e2 is
+    perpendicular to n1_a and to the rod e1: e1, e2 = n1 x e1 / |n1 x e1| and e1 x e2 are the axes of frame_ia, which adds no
+    coordinates. No branch to frame_b: other parts hold it. No torque acts about n1 and e2.
     """
 
     n1_a: Any = structural(
         "first axis of the universal joint, resolved in frame_a",
         default=(0, 0, 1),
         shape=(3,),
-        doc="Not along the rod.",
+        doc="Not parallel to the rod.",
     )
     r_rod_ia: Any = structural("from frame_a to frame_b, resolved in frame_ia, in m", default=(1, 0, 0), shape=(3,))
     frame_ia: Frame = port(Frame, "fixed to the rod at frame_a")
@@ -60,11 +60,11 @@ class UniversalSpherical(TwoFrames):
     f_rod: Scalar = variable("force along the rod on frame_a, positive towards frame_b", unit="N")
 
     def check(self) -> None:
-        """Refuse a rod of length 0, and one along the first axis."""
+        """Reject a rod of length 0, and a rod parallel to the first axis."""
         require_direction(self, self.n1_a, "n1_a")
         require_direction(self, self.r_rod_ia, "r_rod_ia")
         if parallel(self.n1_a, self.r_rod_ia):
-            raise DeclarationError("`n1_a` lies along the rod `r_rod_ia`; give another axis, such as n1_a=(0, 1, 0).")
+            raise DeclarationError("`n1_a` is parallel to the rod `r_rod_ia`; give another axis: n1_a=(0, 1, 0).")
 
     def connections(self):
         yield branch(self.frame_a, self.frame_ia)
@@ -86,7 +86,7 @@ class UniversalSpherical(TwoFrames):
         yield self.f_rod == -dot(e1, f_b)
 
     def _orientation(self, e1: Expr, e2: Expr) -> RelativeOrientation:
-        """Orientation of frame_ia from frame_a, with w = (de2 . e3) e1 - (de1 . e3) e2 + (de1 . e2) e3."""
+        """Orientation of frame_ia relative to frame_a, with w = (de2 . e3) e1 - (de1 . e3) e2 + (de1 . e2) e3."""
         e1_ia = unit_vector(self.r_rod_ia)
         e2_ia = unit_vector(np.cross(self.n1_a, e1_ia))
         e3_ia, e3 = np.cross(e1_ia, e2_ia), cross(e1, e2)
@@ -105,7 +105,7 @@ class UniversalSpherical(TwoFrames):
     def requirements(self):
         yield require(
             norm(cross(unit_vector(self.n1_a), self._rod())) > ALONG * self._length(),
-            "the rod lies along n1_a at the start, where the universal joint does not determine how it turns; give another n1_a",
+            "the rod is parallel to n1_a at the start, a singular configuration of the universal joint; give another n1_a",
         )
 
     def shapes(self):

@@ -1,4 +1,4 @@
-"""World: the inertial frame and the field of gravity."""
+"""World: inertial frame and gravity field."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from components.orientation import unit_vector
 
 
 class World(Component):
-    """The inertial frame, and the field of gravity that acts on all bodies. Every model has exactly one."""
+    """Inertial frame and gravity field of all bodies. Every model has exactly one World."""
 
     ends = ("", "frame_b")
     gravity: Any = effect(
@@ -33,32 +33,32 @@ class World(Component):
         default="uniform",
         choices=("uniform", "point", callable, None),
         tries=(None,),
-        doc="uniform: g n everywhere; point: -mu r / |r|^3; a function of the position r, both resolved in the world, "
-        "returns the acceleration in m/s2.",
+        doc="uniform: g n; point: -mu r / |r|^3; or a function of the position r that returns the acceleration in m/s2, both "
+        "resolved in the world.",
     )
     potential: Any = structural(
         "potential of gravity as a function of the position",
         default=None,
         choices=(None, callable),
-        doc="In J/kg, where gravity is a function. Without it the work of gravity counts as supplied energy.",
+        doc="In J/kg, if gravity is a function. Without it the work of gravity is supplied energy.",
     )
-    g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665, doc="Where it is uniform.")
+    g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665, doc="For uniform gravity.")
     n: Any = structural(
         "direction of gravity, resolved in the world",
         default=(0, -1, 0),
         shape=(3,),
-        doc="Where it is uniform; any length but 0.",
+        doc="For uniform gravity; any nonzero length.",
     )
     mu: Scalar = parameter(
         "gravity constant of the central body",
         unit="m3/s2",
         default=3.986004418e14,
-        doc="Where gravity is that of a point.",
+        doc="For point gravity.",
     )
     frame_b: Frame = port(Frame, "the inertial frame")
 
     def check(self) -> None:
-        """Refuse a direction of length 0."""
+        """Reject a direction of length 0."""
         require_direction(self, self.n, "n")
 
     def connections(self):
@@ -90,16 +90,16 @@ class World(Component):
         return self.potential(r) if callable(self.gravity) and self.potential else 0.0
 
     def power(self, m: Any, r: Any, v: Any) -> Any:
-        """Power of gravity without a potential on a mass m at r that moves with v, resolved in the world, in W."""
+        """Power of gravity without a potential on a mass m at r with velocity v, resolved in the world, in W."""
         known = not callable(self.gravity) or self.potential is not None
         return 0.0 if known else m * dot(self.acceleration(r), v)
 
     def shapes(self):
-        """The ground, normal to gravity where that has a direction."""
+        """The ground, normal to uniform gravity."""
         yield geometry.Ground(-unit_vector(self.n) if self.gravity == "uniform" else None)
 
 
 def require_direction(component: Any, vector: Any, name: str) -> None:
-    """Refuse a vector of length 0 where a direction is needed."""
+    """Reject a direction of length 0."""
     if not np.any(vector):
         raise DeclarationError(f"`{name}` has length 0; give a direction, for instance {name}=(0, 0, 1).")

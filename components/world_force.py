@@ -1,4 +1,4 @@
-"""WorldForce: an external force at a frame."""
+"""WorldForce: external force at a frame."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from components.load import NONE, WorldLoad
 
 
 class WorldForce(WorldLoad):
-    """Force from outside the model that acts at the origin of frame_b."""
+    """External force at the origin of frame_b."""
 
     force: Vector3 = input("force, resolved in resolve_in_frame", unit="N")
 
     def load(self):
-        """Force alone."""
+        """Force without torque."""
         return self.force, NONE
 
     def shapes(self):

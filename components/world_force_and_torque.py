@@ -1,4 +1,4 @@
-"""WorldForceAndTorque: an external force and torque at a frame."""
+"""WorldForceAndTorque: external force and torque at a frame."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from components.load import WorldLoad
 
 
 class WorldForceAndTorque(WorldLoad):
-    """Force and torque from outside the model that act at frame_b."""
+    """External force and torque at frame_b."""
 
     force: Vector3 = input("force, resolved in resolve_in_frame", unit="N")
     torque: Vector3 = input("torque, resolved in resolve_in_frame", unit="N.m")

@@ -1,4 +1,4 @@
-"""WorldTorque: an external torque at a frame."""
+"""WorldTorque: external torque at a frame."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from components.load import NONE, WorldLoad
 
 
 class WorldTorque(WorldLoad):
-    """Torque from outside the model that acts at frame_b."""
+    """External torque at frame_b."""
 
     torque: Vector3 = input("torque, resolved in resolve_in_frame", unit="N.m")
 
     def load(self):
-        """Torque alone."""
+        """Torque without force."""
         return NONE, self.torque
 
     def shapes(self):

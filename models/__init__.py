@@ -1,4 +1,4 @@
-"""Scenes: each a file that can be copied and changed."""
+"""Scenes: example models, each in a file to copy and modify."""
 
 from acausal import Model
 from models.bricard import Bricard

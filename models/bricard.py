@@ -1,4 +1,4 @@
-"""Bricard's mechanism: six revolutes, no two of them parallel neighbours, five moving rods, one freedom."""
+"""Bricard's mechanism: six revolute joints, no adjacent ones parallel, five moving rods, one degree of freedom."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Bricard(Model):
 
     @parts
     def joint(self):
-        """The six revolutes; the first one holds the start."""
+        """The six revolute joints; the first one fixes the initial state."""
         return [Revolute(n=AXES[0], phi=fixed(0), w=fixed(0)), *(Revolute(n=n) for n in AXES[1:])]
 
     @parts

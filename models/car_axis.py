@@ -1,7 +1,7 @@
 """Car axis: two point masses on an axle of fixed length, on springs over a bumpy road (test set for IVP solvers).
 
-The road line from the left to the right contact point has the length of the axle; it turns about the left one. The left
-mass slides on the normal of that line.
+The road line from the left to the right contact point has the length of the axle and rotates about the left contact
+point. The left mass slides on the normal of this line.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ MASS = 10 * 1e-2**2 / 2  # K = M eps^2 / 2
 
 
 class CarAxis(Model):
-    """Masses K at both ends of a massless axle of 1 m; the right contact point moves up and down by 0.1 sin(10 t)."""
+    """Masses K at both ends of a massless axle of 1 m; the right contact point has the height 0.1 sin(10 t)."""
 
     stop_time = 3.0
     world = World(g=1)

@@ -1,4 +1,4 @@
-"""Pendulum of 16 bricks: a soft rod, reduced to a few modes, swings on a hinge (paper on FE matrices, section XI)."""
+"""Pendulum of 16 brick elements: a soft rod on a hinge, reduced to a few modes (paper on FE matrices, section XI)."""
 
 from functools import cache
 
@@ -14,14 +14,14 @@ HINGE, TIP = [0, 2, 4], 50  # nodes of the edge x = 0, z = 0, and the middle one
 
 @cache
 def rod(modes: int) -> ReducedBody:
-    """The rod, made once in a process: its modes with the hinge held, and the tip against turning about it."""
+    """Return the reduced rod, cached: modes with fixed hinge, and a tip fixed against rotation about it."""
     M, K, nodes = box(SIZE, COUNTS, "hex8", E=1e7, nu=0.49, rho=MASS / (SIZE[0] * SIZE[1] * SIZE[2]))
     hold = {"hinge": "xyz", "tip": "z"}
     return reduce_body(M, K, nodes, frames={"hinge": HINGE, "tip": [TIP]}, hold=hold, modes=modes)
 
 
 class FEPendulum(Model):
-    """Rod on a hinge along y, released at rest from the horizontal."""
+    """Rod on a hinge along y, released from rest in the horizontal position."""
 
     stop_time = 0.6
     formulations = (
@@ -32,12 +32,12 @@ class FEPendulum(Model):
     modes: int = structural("number of modes of the elastic rod", default=9, minimum=1, maximum=152)
     world, hinge = World(g=9.81, n=(0, 0, -1)), Revolute(n=(0, 1, 0), phi=fixed(0), w=fixed(0))
     tip_z: Scalar = output("height of the tip above the hinge, in the world", unit="m")
-    tip_vz: Scalar = output("its rate", unit="m/s")
+    tip_vz: Scalar = output("vertical velocity of the tip, in the world", unit="m/s")
 
     @part
     def body(self):
-        # At the bottom it turns with half of its first frequency, which would be a warning were this not the linear body
-        # that others computed as well.
+        # At the bottom the angular velocity is half the first natural frequency, beyond the range of the linear body; the
+        # reference solutions use this linear body as well.
         modes = self.modes if self.formulation == "elastic" else 0
         return FEBody(reduced=rod(self.modes), modes=modes, check_range=False)
 

@@ -1,4 +1,4 @@
-"""A free plate with masses at its corners, pushed at one end or tumbling (paper on reconfigured inertial frames)."""
+"""Free plate with corner masses, loaded by a pulse or tumbling (paper on reconfigured inertial frames)."""
 
 from functools import cache
 from math import pi, sin
@@ -15,7 +15,7 @@ PULSE = FrameLoad("end", lambda t: [k * PEAK * sin(pi * t / LAST) * (t < LAST) f
 
 @cache
 def plate(mesh: str, modes: int) -> ReducedBody:
-    """The plate, made once in a process: free modes, in the axes in which they have no momentum."""
+    """Return the reduced plate, cached: free modes in mean axes, in which they have no momentum."""
     own = mesh in ("hex20", "tet10")
     M, K, nodes = box(SIZE, COUNTS, mesh, E=7e10, nu=0.33, rho=2700) if own else read_npz(mesh, length=1e-3, mass=1e3)
     nodes = Nodes(nodes - (nodes.min(axis=0) + nodes.max(axis=0)) / 2, cells=getattr(nodes, "cells", None))
@@ -25,17 +25,17 @@ def plate(mesh: str, modes: int) -> ReducedBody:
 
 
 class FEPlate(Model):
-    """Plate without gravity, its centre of mass at the origin of the world at first; half a sine pushes at its end."""
+    """Plate without gravity, initially with its centre of mass at the origin of the world; a half-sine force at its end."""
 
-    stop_time, compared = 0.3, ("P1_x", "P1_z", "w_y")  # the others nearly rest under the pulse
+    stop_time, compared = 0.3, ("P1_x", "P1_z", "w_y")  # the other outputs hardly move under the pulse
     steps = by_steps(ELASTIC, (7.5e-4, 2.5e-4, 1.25e-4, 6.25e-5), lambda s: [PULSE] if s.load == "pulse" else [])
     formulations = (Formulation("floating frame", ELASTIC), Formulation("rigid", {"formulation": "rigid"}), *steps)
     formulation: str = structural("kind of plate", default="elastic", choices=("elastic", "rigid"))
     modes: int = structural("number of modes of the elastic plate", default=10, minimum=1)
     mesh: str = structural("hex20, tet10, or a .npz file with nodes, K and mass in mm, N, Mg", default="hex20")
-    load: str = structural("what pushes", default="pulse", choices=("pulse", "none"))
-    spin: tuple = structural("angular velocity at the start in rad/s", default=(0, 0, 0), shape=(3,))
-    damping: Scalar = parameter("damping of the modes, of critical", unit="1", default=0.05, minimum=0)
+    load: str = structural("load at the end", default="pulse", choices=("pulse", "none"))
+    spin: tuple = structural("initial angular velocity in rad/s", default=(0, 0, 0), shape=(3,))
+    damping: Scalar = parameter("modal damping ratio", unit="1", default=0.05, minimum=0)
     world, push = World(gravity=None), WorldForce()
     P1_x, P1_y, P1_z = (output(f"{axis} of the corner P1, in the world", unit="m") for axis in "xyz")
     w_x, w_y, w_z = (output(f"angular velocity about {axis} of the plate", unit="rad/s") for axis in "xyz")

@@ -1,4 +1,4 @@
-"""Planar four-bar: four plain revolutes about z and a damper on the crank (Modelica's Loops.PlanarFourbar)."""
+"""Planar four-bar: four revolute joints about z and a damper on the crank (Modelica's Loops.PlanarFourbar)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from components.rotational import Damper
 
 
 class FourBar(Model):
-    """Crank b1, coupler b2 and rocker b4 on the fixed link b3, released at rest."""
+    """Crank b1, coupler b2 and rocker b4 on the fixed link b3, released from rest."""
 
     stop_time = 5.0
     world = World(g=9.80665)

@@ -1,4 +1,4 @@
-"""Spatial four-bar: crank, coupler and slider with plain revolutes (Modelica's Loops.Fourbar1)."""
+"""Spatial four-bar: crank, coupler and slider with revolute joints (Modelica's Loops.Fourbar1)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 
 
 class FourBarSpatial(Model):
-    """Crank b1 about x, slider b2 along x and coupler b3 between them, with an initial spin."""
+    """Crank b1 about x, slider b2 along x and coupler b3 between them, with an initial angular velocity."""
 
     stop_time = 5.0
     world = World(g=9.80665)

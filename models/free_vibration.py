@@ -1,4 +1,4 @@
-"""Free vibration: a cantilever that is released from the static shape under a tip force (beam paper, section 5.1)."""
+"""Free vibration: cantilever released from its static deflection under a tip force (beam paper, section 5.1)."""
 
 import acausal as ac
 from acausal import Model, Scalar, chain, connect, initial, output, parameter, part, structural
@@ -9,28 +9,28 @@ CHAIN = {"formulation": "substructured"}
 
 
 class FreeVibration(Model):
-    """Cantilever of aluminium, 2 m long, of square section, released with the deflection tip."""
+    """Aluminium cantilever, 2 m long, with square section, released with the tip deflection `tip`."""
 
     stop_time = 1.0
-    method = "resolve"  # its vibrations are of interest: follow them, do not damp them
+    method = "resolve"  # the vibrations are of interest and must not be damped numerically
     formulations = ac.with_and_without(
         ac.Formulation("one frame", {"formulation": "fem"}, {"elements": (2, 4, 8)}),
         ac.Formulation("volumes", {**CHAIN, "elements_per_volume": 1}, {"volumes": (2, 4, 8)}, exact=True),
         ac.Formulation("volumes of 2", {**CHAIN, "elements_per_volume": 2}, {"volumes": (1, 2, 4)}, exact=True),
         stiffened="beam.geometric_stiffness",
     )
-    formulation: str = structural("kind of beam", default="fem", choices=("fem", "substructured"))
+    formulation: str = structural("formulation of the beam", default="fem", choices=("fem", "substructured"))
     elements: int = structural("elements of the finite-element beam", default=10, minimum=1)
     volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)
     elements_per_volume: int = structural("finite elements of a volume", default=2, minimum=1)
-    tip: Scalar = parameter("deflection of the tip at the start", unit="m", default=0.01)
+    tip: Scalar = parameter("initial tip deflection", unit="m", default=0.01)
     world = World(gravity=None)
     load = WorldForce()
     tip_deflection: Scalar = output("transverse displacement of the tip", unit="m")
 
     @part
     def beam(self):
-        """The beam, in one frame or substructured."""
+        """The beam, in one floating frame or substructured."""
         if self.formulation == "fem":
             return FlexibleBeam(elements=self.elements, initial="static", **SECTION)
         return SubstructuredBeam(

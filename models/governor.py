@@ -1,4 +1,4 @@
-"""Flyball governor: two rods with balls, hung from a spinning shaft and tied to a slider by stiff spring-dampers."""
+"""Flyball governor: two rods with balls on a rotating shaft, coupled to a slider by stiff spring-dampers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CUBE = 3000 * 0.1**3
 
 
 class Governor(Model):
-    """Shaft along z that spins freely, with a cube that slides on it; rods 30 degrees below the horizontal at first."""
+    """Freely rotating shaft along z with a sliding cube; the rods are initially 30 degrees below the horizontal."""
 
     stop_time = 10.0
     world = World(g=9.81, n=(0, 0, -1))

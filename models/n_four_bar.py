@@ -1,4 +1,4 @@
-"""N four-bars side by side, all parallelograms, that pass through their flat singular position."""
+"""N four-bars side by side, all parallelograms, which pass through their flat singular configuration."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class NFourBar(Model):
 
     @parts
     def foot(self):
-        """Joints between ground and uprights; the first one holds the start."""
+        """Joints between ground and uprights; the first one fixes the initial state."""
         return [Revolute(phi=fixed(0), w=fixed(-1)), *(Revolute() for _ in range(self.N))]
 
     @parts

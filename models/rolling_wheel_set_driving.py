@@ -1,4 +1,4 @@
-"""Rolling wheel set: two wheels on one axle, each with a motor, roll without slip and push a body ahead."""
+"""Rolling wheel set: two wheels on one axle, each with a motor, roll without slip and push a body."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from components.rotational import Torque2
 
 
 class RollingWheelSetDriving(Model):
-    """The torques of both motors are sines, a quarter of a period apart, so that the set turns as it moves."""
+    """Sinusoidal motor torques with a phase shift of a quarter period, so that the wheel set turns while driving."""
 
     stop_time = 3.0
     world = World(n=(0, 0, -1))

@@ -1,4 +1,4 @@
-"""Simple pendulum: a point mass on a massless bar, released at rest from the horizontal."""
+"""Simple pendulum: point mass on a massless bar, released from rest in the horizontal position."""
 
 from __future__ import annotations
 

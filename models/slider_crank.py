@@ -1,4 +1,4 @@
-"""Slider-crank of elastic or rigid bars, driven by a torque that is switched off at 0.7 s (beam paper, section 5.3)."""
+"""Slider-crank of elastic or rigid bars, driven by a torque until 0.7 s (beam paper, section 5.3)."""
 
 import acausal as ac
 from acausal import Model, Scalar, chain, connect, effect, fixed, output, parameter, part, structural, time
@@ -9,7 +9,7 @@ D, A, J = 2770.0, 0.7854e-4, 4.909e-10  # density, area and second moment of are
 
 
 class SliderCrank(Model):
-    """Crank and rod in line along +x and at rest at the start, the slider far."""
+    """Crank and rod initially at rest and in line along +x, in the outer dead centre."""
 
     stop_time = 1.6
     formulations = ac.with_and_without(
@@ -21,7 +21,7 @@ class SliderCrank(Model):
     crank: str = effect("elasticity of the crank", default="elastic", choices=("elastic", "rigid"))
     rod: str = effect("elasticity of the rod", default="elastic", choices=("elastic", "rigid"))
     crank_elements: int = structural("finite elements of the crank", default=3, minimum=1)
-    rod_elements: int = structural("finite elements of the rod, all volumes together", default=8, minimum=1)
+    rod_elements: int = structural("total number of finite elements of the rod", default=8, minimum=1)
     rod_volumes: int = structural("volumes of the rod", default=1, minimum=1)
     slider_mass: Scalar = parameter("mass of the slider", unit="kg", default=0, minimum=0)
     gravity: Scalar = parameter("acceleration of gravity", unit="m/s2", default=0)
@@ -30,8 +30,8 @@ class SliderCrank(Model):
     drive = Torque(tau=ac.piecewise((0.01 * (1 - ac.exp(-time / 0.167)), time <= 0.7), 0))
     crank_angle: Scalar = output("angle of the crank at the bearing", unit="rad")
     slider_position: Scalar = output("distance of the slider from the bearing", unit="m")
-    rod_tip_deflection: Scalar = output("transverse displacement of the rod's end from its root tangent", unit="m")
-    rod_mid_deflection: Scalar = output("transverse distance of the rod's middle from its chord", unit="m")
+    rod_tip_deflection: Scalar = output("transverse displacement of the rod tip from the root tangent", unit="m")
+    rod_mid_deflection: Scalar = output("transverse distance of the rod midpoint from the chord", unit="m")
 
     @part
     def crank_bar(self):

@@ -1,4 +1,4 @@
-"""Spin-up manoeuvre: a flexible beam on a hub that turns by a prescribed angle (beam paper, section 5.4)."""
+"""Spin-up manoeuvre: flexible beam on a hub with a prescribed angle (beam paper, section 5.4)."""
 
 from math import pi
 
@@ -11,7 +11,7 @@ FEM, CHAIN = {"formulation": "fem"}, {"formulation": "substructured"}
 
 
 class SpinUp(Model):
-    """Beam on a hub that is brought to the speed omega within the time ramp."""
+    """Beam on a hub that accelerates to the speed omega within the time ramp."""
 
     stop_time = 20.0
     formulations = ac.with_and_without(
@@ -20,11 +20,11 @@ class SpinUp(Model):
         ac.Formulation("volumes of 2", {**CHAIN, "elements_per_volume": 2}, {"volumes": (5, 10, 20)}, exact=True),
         stiffened="beam.geometric_stiffness",
     )
-    formulation: str = structural("kind of beam", default="substructured", choices=("substructured", "fem"))
+    formulation: str = structural("formulation of the beam", default="substructured", choices=("substructured", "fem"))
     volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)
     elements_per_volume: int = structural("finite elements of a volume", default=1, minimum=1)
     omega: Scalar = parameter("final speed of the hub", unit="rad/s", default=4)
-    ramp: Scalar = parameter("time to reach it", unit="s", default=15, positive=True)
+    ramp: Scalar = parameter("acceleration time", unit="s", default=15, positive=True)
     length: Scalar = parameter("length of the beam", unit="m", default=8, positive=True)
     E: Scalar = parameter("modulus of elasticity", unit="Pa", default=6.895e10, positive=True)
     A: Scalar = parameter("area of the section", unit="m2", default=7.299e-5, positive=True)
@@ -32,8 +32,8 @@ class SpinUp(Model):
     rho: Scalar = parameter("density", unit="kg/m3", default=2767, positive=True)
     world, hub, drive = World(gravity=None), Revolute(use_axis_flange=True), Position()
     angle: Scalar = output("prescribed angle", unit="rad")
-    tip_deflection: Scalar = output("transverse position of the tip in the turning frame", unit="m")
-    tip_extension: Scalar = output("longitudinal position of the tip in the turning frame, less the length", unit="m")
+    tip_deflection: Scalar = output("transverse position of the tip in the rotating frame", unit="m")
+    tip_extension: Scalar = output("longitudinal displacement of the tip in the rotating frame", unit="m")
 
     @part
     def beam(self):

@@ -1,4 +1,4 @@
-"""Andrews' squeezing mechanism: seven planar bodies, three loops that meet in one point, one freedom."""
+"""Andrews' squeezing mechanism: seven planar bodies, three loops through one point, one degree of freedom."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from components.rotational import Torque
 
 
 def body(m: float, I: float, r: tuple[float, float], r_CM: tuple[float, float]) -> BodyShape:
-    """Planar body from its mass, its moment of inertia, its far pin and its centre of mass."""
+    """Return a planar body from its mass, moment of inertia, second pin and centre of mass."""
     return BodyShape(m=m, I=((0, 0, 0), (0, 0, 0), (0, 0, I)), r=(*r, 0), r_CM=(*r_CM, 0))
 
 
 def angle(name: str) -> Any:
-    """Declare the output of a joint angle."""
+    """Declare an output for a joint angle."""
     return output(f"angle {name}", unit="rad")
 
 
 class Squeezer(Model):
-    """Crank K1 and link K2 move the pin E; K3, K4 on K5, and K6 on K7 hold it, a spring pulls K3; at rest at first."""
+    """Crank K1 and link K2 drive the pin E, which K3, K4 with K5, and K6 with K7 support; a spring loads K3; from rest."""
 
     stop_time = 0.03
     world = World(gravity=None)

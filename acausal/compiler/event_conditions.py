@@ -237,9 +237,7 @@ class EventConditions:
         return self.motion_of(self.watched)
 
     def motion_of(self, some: Sequence[int]) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Return excesses of some guards, their rates with z held, dg/dz for the z in them, and of the equations h(x, z, t) = 0
-        of these z the Jacobian dh/dz and the rates with z held: dg/dt = g_t - g_z h_z^-1 h_t.
-        """
+        """Return g of some guards, g_t with z held, g_z, h_z and h_t, where h = 0 determines z: dg/dt = g_t - g_z h_z^-1 h_t."""
         r, excess = self.reduced, self.excess[list(some)]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
         unknowns, equations = (k.tolist() for k in self._dependence.needed(self._dependence.inside(excess)))

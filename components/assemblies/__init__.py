@@ -1,4 +1,4 @@
-"""Chains of joints with two massless rods, each as one part."""
+"""Joint assemblies: chains of joints and massless rods as one part."""
 
 from components.assemblies.joint_rrp import JointRRP
 from components.assemblies.joint_rrr import JointRRR

@@ -1,4 +1,4 @@
-"""JointRRR: two revolute joints and a revolute joint in a chain that moves in a plane."""
+"""JointRRR: planar chain of three revolute joints."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class JointRRR(RevoluteEnd):
 
     @part
     def rod1(self):
-        """Rod with joints that leave what the plane allows."""
+        """Rod whose joints constrain no motion in the plane."""
         return UniversalSpherical(n1_a=self.n_a, r_rod_ia=self.r_rod1_ia)
 
     def connections(self):

@@ -1,4 +1,4 @@
-"""JointSSP: two ball joints and a prismatic joint in a chain."""
+"""JointSSP: chain of two ball joints and a prismatic joint."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ class JointSSP(PrismaticEnd):
 
     n_b: Any = structural("axis of the prismatic joint, resolved in frame_b", default=(0, 0, 1), shape=(3,))
     r_rod2_ib: Any = structural(
-        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(1, 0, 0), shape=(3,)
+        "from frame_ib to the middle joint, resolved in frame_ib, in m", default=(1, 0, 0), shape=(3,)
     )
-    rod1_length: Scalar = parameter("distance of the ball joints", unit="m", positive=True)
-    rod1_mass: Scalar = parameter("mass, in the middle of rod 1", unit="kg", default=0, minimum=0)
+    rod1_length: Scalar = parameter("distance between the ball joints", unit="m", positive=True)
+    rod1_mass: Scalar = parameter("mass at the midpoint of rod 1", unit="kg", default=0, minimum=0)
 
     @part
     def rod1(self):

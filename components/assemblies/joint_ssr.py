@@ -1,4 +1,4 @@
-"""JointSSR: two ball joints and a revolute joint in a chain."""
+"""JointSSR: chain of two ball joints and a revolute joint."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ class JointSSR(RevoluteEnd):
     """Ball joint at frame_a, rod 1, ball joint in the middle, rod 2, revolute joint at frame_b."""
 
     r_rod2_ib: Any = structural(
-        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(1, 0, 0), shape=(3,)
+        "from frame_ib to the middle joint, resolved in frame_ib, in m", default=(1, 0, 0), shape=(3,)
     )
-    rod1_length: Scalar = parameter("distance of the ball joints", unit="m", positive=True)
-    rod1_mass: Scalar = parameter("mass, in the middle of rod 1", unit="kg", default=0, minimum=0)
+    rod1_length: Scalar = parameter("distance between the ball joints", unit="m", positive=True)
+    rod1_mass: Scalar = parameter("mass at the midpoint of rod 1", unit="kg", default=0, minimum=0)
 
     @part
     def rod1(self):

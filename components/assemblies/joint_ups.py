@@ -1,4 +1,4 @@
-"""JointUPS: a universal, a prismatic and a ball joint in a chain."""
+"""JointUPS: chain of a universal, a prismatic and a ball joint."""
 
 from __future__ import annotations
 
@@ -7,46 +7,35 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError, Scalar, chain, connect, guess, parameter, part, port, require, structural
+from components.driven import DrivenByRod
 from components.fixed_translation import FixedTranslation
-from components.frame import Frame, TwoFrames
+from components.frame import Frame
 from components.orientation import parallel, unit_vector
 from components.prismatic import Prismatic
 from components.spherical import Spherical
-from components.translational.flange import TranslationalFlange
 from components.universal import Universal
 from components.world import require_direction
 
 
-class JointUPS(TwoFrames):
-    """Universal joint at frame_a, prismatic joint, ball joint at frame_b: a strut of length s + s_offset.
+class JointUPS(DrivenByRod):
+    """Strut of length s + s_offset: universal joint at frame_a, prismatic joint, ball joint at frame_b.
 
     Notes
     -----
-    The first axis of the universal joint is n1_a, the second is at right angles to that and to the strut.
+    The first axis of the universal joint is n1_a; the second is perpendicular to n1_a and to the strut.
     """
 
     n1_a: Any = structural(
         "first axis of the universal joint, resolved in frame_a",
         default=(0, 0, 1),
         shape=(3,),
-        doc="Not along the strut.",
+        doc="Not parallel to the strut.",
     )
     n_axis_ia: Any = structural("from frame_a to frame_b, resolved in frame_ia", default=(1, 0, 0), shape=(3,))
-    s_offset: Scalar = parameter("length where s is 0", unit="m", default=0)
-    s_guess: Scalar = parameter("guess of s", unit="m", default=1, doc="The length at the start is not 0.")
-    use_axis_flange: bool = structural("whether the prismatic joint has a drive", default=False, choices=(True, False))
+    s_offset: Scalar = parameter("length at s = 0", unit="m", default=0)
+    s_guess: Scalar = parameter("initial guess of s", unit="m", default=1, doc="The initial length is nonzero.")
     frame_ia: Frame = port(Frame, "fixed to the strut at frame_a")
     frame_ib: Frame = port(Frame, "fixed to the strut at frame_b")
-
-    @port
-    def axis(self) -> TranslationalFlange | None:
-        """Drive rod."""
-        return TranslationalFlange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> TranslationalFlange | None:
-        """Housing of the drive."""
-        return TranslationalFlange() if self.use_axis_flange else None
 
     @part
     def universal(self):
@@ -69,24 +58,22 @@ class JointUPS(TwoFrames):
         return Spherical()
 
     def check(self) -> None:
-        """Refuse axes of length 0, and a strut along the first axis."""
+        """Reject axes of length 0, and a strut parallel to the first axis."""
         require_direction(self, self.n1_a, "n1_a")
         require_direction(self, self.n_axis_ia, "n_axis_ia")
         if parallel(self.n1_a, self.n_axis_ia):
             raise DeclarationError(
-                "`n1_a` lies along the strut `n_axis_ia`; give another axis, such as n1_a=(0, 1, 0)."
+                "`n1_a` is parallel to the strut `n_axis_ia`; give another axis, such as n1_a=(0, 1, 0)."
             )
 
     def requirements(self):
         yield require(
             self.prismatic.s + self.s_offset > 0,
-            "the length of the strut is negative at the start; give n_axis_ia a direction nearer to that from frame_a to frame_b",
+            "the initial length of the strut is negative; give n_axis_ia a direction closer to that from frame_a to frame_b",
         )
 
     def connections(self):
         yield chain(self.frame_a, self.universal, self.offset, self.prismatic, self.spherical, self.frame_b)
         yield connect(self.universal.frame_b, self.frame_ia)
         yield connect(self.prismatic.frame_b, self.frame_ib)
-        if self.use_axis_flange:
-            yield connect(self.axis, self.prismatic.axis)
-            yield connect(self.support, self.prismatic.support)
+        yield from self.drive_connections(self.prismatic)

@@ -1,4 +1,4 @@
-"""JointUSP: a universal, a ball and a prismatic joint in a chain."""
+"""JointUSP: chain of a universal, a ball and a prismatic joint."""
 
 from __future__ import annotations
 

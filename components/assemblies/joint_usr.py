@@ -1,4 +1,4 @@
-"""JointUSR: a universal, a ball and a revolute joint in a chain."""
+"""JointUSR: chain of a universal, a ball and a revolute joint."""
 
 from __future__ import annotations
 

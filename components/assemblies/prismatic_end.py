@@ -5,41 +5,30 @@ from __future__ import annotations
 from typing import Any
 
 from acausal import Scalar, chain, connect, guess, parameter, part, port, structural
+from components.driven import DrivenByRod
 from components.fixed_translation import FixedTranslation
-from components.frame import Frame, TwoFrames
+from components.frame import Frame
 from components.orientation import unit_vector
 from components.prismatic import Prismatic
-from components.translational.flange import TranslationalFlange
 from components.world import require_direction
 
 
-class PrismaticEnd(TwoFrames):
-    """Base: a prismatic joint at frame_b and rod 2 from it to the joint in the middle; a subclass joins frame_a to rod 2."""
+class PrismaticEnd(DrivenByRod):
+    """Base: prismatic joint at frame_b, then rod 2 up to the middle joint; a subclass connects frame_a to rod 2."""
 
     n_b: Any = structural("axis of the prismatic joint, resolved in frame_b", default=(-1, 0, 0), shape=(3,))
     r_rod2_ib: Any = structural(
-        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
+        "from frame_ib to the middle joint, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
     )
-    s_offset: Scalar = parameter("distance of the frames of the prismatic joint where s is 0", unit="m", default=0)
+    s_offset: Scalar = parameter("distance between the frames of the prismatic joint at s = 0", unit="m", default=0)
     s_guess: Scalar = parameter(
-        "guess of s",
+        "initial guess of s",
         unit="m",
         default=0,
-        doc="Selects the nearer one of the two positions in which the loop closes; midway between them it may find neither.",
+        doc="Selects the closer of the two assembly configurations; a guess midway between them may find neither.",
     )
-    use_axis_flange: bool = structural("whether the prismatic joint has a drive", default=False, choices=(True, False))
     frame_ib: Frame = port(Frame, "fixed to rod 2 at the prismatic joint")
-    frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
-
-    @port
-    def axis(self) -> TranslationalFlange | None:
-        """Drive rod."""
-        return TranslationalFlange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> TranslationalFlange | None:
-        """Housing of the drive."""
-        return TranslationalFlange() if self.use_axis_flange else None
+    frame_im: Frame = port(Frame, "fixed to rod 2 at the middle joint")
 
     @part
     def offset(self):
@@ -53,16 +42,14 @@ class PrismaticEnd(TwoFrames):
 
     @part
     def rod2(self):
-        """Rod from frame_ib to the joint in the middle."""
+        """Rod from frame_ib to the middle joint."""
         return FixedTranslation(r=self.r_rod2_ib)
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n_b, "n_b")
 
     def connections(self):
         yield chain(self.frame_b, self.offset, self.prismatic, self.rod2, self.frame_im)
         yield connect(self.prismatic.frame_b, self.frame_ib)
-        if self.use_axis_flange:
-            yield connect(self.axis, self.prismatic.axis)
-            yield connect(self.support, self.prismatic.support)
+        yield from self.drive_connections(self.prismatic)

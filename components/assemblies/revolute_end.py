@@ -5,41 +5,30 @@ from __future__ import annotations
 from typing import Any
 
 from acausal import Scalar, chain, connect, guess, parameter, part, port, structural
+from components.driven import DrivenByShaft
 from components.fixed_rotation import FixedRotation
 from components.fixed_translation import FixedTranslation
-from components.flange import Flange
-from components.frame import Frame, TwoFrames
+from components.frame import Frame
 from components.revolute import Revolute
 from components.world import require_direction
 
 
-class RevoluteEnd(TwoFrames):
-    """Base: a revolute joint at frame_b and rod 2 from it to the joint in the middle; a subclass joins frame_a to rod 2."""
+class RevoluteEnd(DrivenByShaft):
+    """Base: revolute joint at frame_b, then rod 2 up to the middle joint; a subclass connects frame_a to rod 2."""
 
     n_b: Any = structural("axis of the revolute joint, resolved in frame_b", default=(0, 0, 1), shape=(3,))
     r_rod2_ib: Any = structural(
-        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
+        "from frame_ib to the middle joint, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
     )
-    phi_offset: Any = structural("angle of the revolute joint where phi is 0, in rad", default=0.0, shape=())
+    phi_offset: Any = structural("angle of the revolute joint at phi = 0, in rad", default=0.0, shape=())
     phi_guess: Scalar = parameter(
-        "guess of phi",
+        "initial guess of phi",
         unit="rad",
         default=0,
-        doc="Helps to select one of the two positions in which the loop closes; midway between them it may find neither.",
+        doc="Helps to select one of the two assembly configurations; a guess midway between them may find neither.",
     )
-    use_axis_flange: bool = structural("whether the revolute joint has a drive", default=False, choices=(True, False))
     frame_ib: Frame = port(Frame, "fixed to rod 2 at frame_b")
-    frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
-
-    @port
-    def axis(self) -> Flange | None:
-        """Drive shaft."""
-        return Flange() if self.use_axis_flange else None
-
-    @port
-    def support(self) -> Flange | None:
-        """Housing of the drive."""
-        return Flange() if self.use_axis_flange else None
+    frame_im: Frame = port(Frame, "fixed to rod 2 at the middle joint")
 
     @part
     def offset(self):
@@ -53,16 +42,14 @@ class RevoluteEnd(TwoFrames):
 
     @part
     def rod2(self):
-        """Rod from frame_ib to the joint in the middle."""
+        """Rod from frame_ib to the middle joint."""
         return FixedTranslation(r=self.r_rod2_ib)
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n_b, "n_b")
 
     def connections(self):
         yield chain(self.frame_b, self.offset, self.revolute, self.rod2, self.frame_im)
         yield connect(self.revolute.frame_b, self.frame_ib)
-        if self.use_axis_flange:
-            yield connect(self.axis, self.revolute.axis)
-            yield connect(self.support, self.revolute.support)
+        yield from self.drive_connections(self.revolute)

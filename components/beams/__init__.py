@@ -1,4 +1,4 @@
-"""Flexible beams: finite elements in a floating frame, and chains of these for large deflections."""
+"""Flexible beams: finite elements in a floating frame, and chains of such frames for large deflections."""
 
 from components.beams.flexible_beam import FlexibleBeam
 from components.beams.substructured_beam import SubstructuredBeam

@@ -1,4 +1,4 @@
-"""Beam: what beams of every formulation have in common."""
+"""Beam: base of all beam formulations."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from components.orientation import resolve2
 
 
 class Beam(TwoFrames):
-    """Base of straight beams along x of frame_a that bend in its xy plane."""
+    """Base of straight beams along x of frame_a with bending in the xy plane."""
 
     length: Scalar = parameter("length", unit="m", positive=True)
     E: Scalar = parameter("modulus of elasticity", unit="Pa", positive=True)
@@ -24,27 +24,27 @@ class Beam(TwoFrames):
         unit="m4",
         default=lambda s: s.J,
         minimum=0,
-        doc="It only enters the inertia about the beam's own axis; J if not given.",
+        doc="Enters the inertia about the beam axis only; J if not given.",
     )
     torsional_inertia: Scalar = parameter(
-        "moment of inertia about the beam's own axis",
+        "moment of inertia about the beam axis",
         unit="kg.m2",
         default=lambda s: s.rho * (s.J + s.J_y) * s.length,
         minimum=0,
-        doc="It is rho (J + J_y) length if not given.",
+        doc="rho (J + J_y) length if not given.",
     )
     reference: str = structural(
         "reference frame",
         default="tangent",
         choices=("tangent", "pinned"),
-        doc="It is tangent to the root, or the chord from the first to the last point.",
+        doc="tangent: tangent at the root; pinned: chord from the first to the last point.",
     )
     alpha: Scalar = parameter(
         "mass-proportional damping",
         unit="1/s",
         default=0,
         minimum=0,
-        doc="Rayleigh damping: D = alpha M + beta K, of what moves in the reference frame: little does in short volumes.",
+        doc="Rayleigh damping: D = alpha M + beta K, of velocities in the reference frame, which are small in short volumes.",
     )
     beta: Scalar = parameter(
         "stiffness-proportional damping",
@@ -54,67 +54,64 @@ class Beam(TwoFrames):
         doc="Rayleigh damping: D = alpha M + beta K.",
     )
     initial: str = structural(
-        "state at the start",
+        "initial state",
         default="undeformed",
         choices=("undeformed", "static", "free"),
-        doc="undeformed: q = 0 and der(q) = 0; static: der(q) = 0 and der(der(q)) = 0; free: nothing. A start "
-        "in steady state, where the flag `initial` is 0, takes the shape of rest instead of q = 0.",
+        doc="undeformed: q = 0 and der(q) = 0; static: der(q) = 0 and der(der(q)) = 0; free: no condition. In a start "
+        "at equilibrium, where the flag `initial` is 0, the static shape replaces q = 0.",
     )
     nominal_rate: Scalar = parameter(
-        "nominal value of der(q) over that of q",
+        "nominal value of der(q) over the nominal value of q",
         unit="1/s",
         default=1,
         positive=True,
-        doc="A larger one, such as the rate of the slowest vibrations, lets the error test follow displacements "
-        "rather than the velocities of ringing at high frequency.",
+        doc="A larger value, such as the angular frequency of the slowest vibration, makes the error test control "
+        "displacements rather than velocities of high-frequency vibrations.",
     )
 
     check_range: bool = structural(
-        "whether a run warns where the beam model is not valid",
+        "whether a run warns outside the range of validity of the beam model",
         default=True,
         choices=(True, False),
-        doc="False suppresses the warning that slopes or axial forces are too large for the frames of the beam.",
+        doc="False suppresses the warning about slopes or axial forces too large for the frames of the beam.",
     )
     adaptive: bool = structural(
-        "whether accuracy chooses the number of elements",
+        "whether accuracy determines the number of elements",
         default=False,
         choices=(True, False),
-        doc="simulate(accuracy=...) then chooses it, and the number of volumes as well.",
+        doc="True lets simulate(accuracy=...) select the number of elements, or of volumes.",
     )
     axial: str = effect(
         "stretch",
         default="dynamic",
         choices=("dynamic", "quasi_static", "none"),
-        doc="dynamic: with its vibrations; quasi_static: it follows the axial force at once, without inertia of its own.",
+        doc="dynamic: with axial vibrations; quasi_static: proportional to the axial force, without inertia; none: inextensible.",
     )
-    bending: bool = effect("bending in the xy plane", default=True, doc="False leaves a bar that stretches only.")
-    rotary_inertia: bool = effect(
-        "inertia of the sections against rotation", default=False, doc="It is rho J per length."
-    )
+    bending: bool = effect("bending in the xy plane", default=True, doc="False leaves axial deformation only.")
+    rotary_inertia: bool = effect("rotary inertia of the sections", default=False, doc="rho J per unit length.")
     centrifugal: bool = effect(
         "centrifugal forces of the deformation",
         default=True,
-        doc="They act on the deformation and because of it, with the square of the angular velocity; those of the straight "
-        "beam always act.",
+        doc="The part of the centrifugal forces that depends on the deformation; that of the straight beam always acts.",
     )
     coriolis: bool = effect(
         "Coriolis forces of the rates of deformation",
         default=True,
-        doc="They go with the product of angular velocity and rate of deformation.",
+        doc="Proportional to the product of angular velocity and rate of deformation.",
     )
     geometric_stiffness: bool = effect(
-        "second-order stiffness by axial forces",
+        "geometric (second-order) stiffness",
         default=False,
-        doc="It is the shortening of the axis by its slope, by which axial forces stiffen the beam or let it buckle.",
+        doc="Shortening of the axis by its slope: axial tension stiffens the beam, compression softens or buckles it.",
     )
-    damping: bool = effect("damping by alpha and beta", default=True)
+    damping: bool = effect("Rayleigh damping by alpha and beta", default=True)
     weight: bool = effect("weight", default=True)
 
     middle_r_0: ClassVar[Any]
 
     @property
     def frames(self) -> list[Any]:
-        """The flexible beams that it consists of, each in a frame of its own."""
+        """The flexible beams of this beam, each with its own floating frame."""
         return [self]
 
     def validity(self):
@@ -127,7 +124,7 @@ class Beam(TwoFrames):
 
     @observed
     def middle_deflection(self):
-        """Transverse distance of the material middle point from the chord, positive along y of frame_a, in m."""
+        """Transverse distance of the material midpoint from the chord, positive along y of frame_a, in m."""
         a = self.frame_a
         chord = resolve2(a.R, self.frame_b.r_0 - a.r_0)
         middle = resolve2(a.R, self.middle_r_0 - a.r_0)

@@ -1,8 +1,8 @@
-"""Integrals of the Euler-Bernoulli beam element, derived exactly.
+"""Exact integrals of the Euler-Bernoulli beam element.
 
-Linear shape functions along the beam, Hermite cubics across it (Schiavo, Vigano, Ferretti 2006, equation 6). Everything
-is for nodal coordinates in metres, U = (u, v, l theta) at each node, with l the length of an element: then the shape
-functions hold numbers only, and mass l rho A and stiffnesses E A / l and E J / l^3 are factors.
+Linear shape functions for the axial and Hermite cubics for the transverse displacement (Schiavo, Vigano, Ferretti 2006,
+equation 6). The nodal coordinates U = (u, v, l theta) are in metres, with the element length l: the shape functions are
+then dimensionless, and the mass l rho A and the stiffnesses E A / l and E J / l^3 are factors.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ Row = tuple[Polynomial, ...]
 ZERO, ONE, xi = Polynomial([0]), Polynomial([1]), Polynomial([0, 1])
 ALONG = (1 - xi, ZERO, ZERO, xi, ZERO, ZERO)
 ACROSS = (ZERO, 1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3, ZERO, 3 * xi**2 - 2 * xi**3, xi**3 - xi**2)
-COMMON = 420  # of 1 to 7: integrals of whole polynomials up to degree 6 are whole numbers over it, without rounding
+COMMON = 420  # least common multiple of 1 to 7: exact common denominator of integer polynomials up to degree 6
 
 
 @dataclass(frozen=True)
 class BeamMatrices:
-    """Assembled integrals over the mass of N elements, per mass of an element; x is measured in element lengths.
+    """Assembled mass integrals of N elements, per element mass; x is measured in element lengths.
 
     Parameters
     ----------
     s1, s2 : arrays, shape (n,)
-        Integrals of S1 and S2, the rows of the shape functions along and across; n = 3 (N + 1) + bubbles.
+        Integrals of S1 and S2, the axial and transverse shape functions; n = 3 (N + 1) + bubbles.
     x1, x2 : arrays, shape (n,)
         Integrals of x S1 and x S2.
     M11, M12, M22 : arrays, shape (n, n)
@@ -38,7 +38,7 @@ class BeamMatrices:
     G : array, shape (n, n)
         Integral of S2'' S2' (first derivatives), factor 1/l.
     bubbles : int
-        Last entries of all arrays: an element may have, beside its nodes, a displacement xi (1 - xi) along the beam.
+        Number of axial bubble functions xi (1 - xi), at most one per element; the last entries of all arrays.
     """
 
     s1: np.ndarray
@@ -89,12 +89,12 @@ def element_matrices(bubble: bool = False) -> BeamMatrices:
 
 @cache
 def beam_matrices(elements: int, bubbles: bool = False) -> BeamMatrices:
-    """Assemble the integrals of a beam (equation 11): element j lies between nodes j and j + 1, its root at x = j."""
+    """Assemble the integrals of a beam (equation 11): element j is between nodes j and j + 1, with its root at x = j."""
     one, n = element_matrices(bubbles), 3 * (elements + 1) + elements * bubbles
     vectors = {name: np.zeros(n) for name in ("s1", "s2", "x1", "x2")}
     matrices = {name: np.zeros((n, n)) for name in ("M11", "M12", "M22", "K_axial", "K_bending", "G")}
     for j in range(elements):
-        dofs = np.array(places(j, elements, bubbles))
+        dofs = np.array(element_dofs(j, elements, bubbles))
         for name, total in vectors.items():
             shifted = j * getattr(one, "s" + name[1]) if name[0] == "x" else 0
             total[dofs] += getattr(one, name) + shifted
@@ -103,6 +103,6 @@ def beam_matrices(elements: int, bubbles: bool = False) -> BeamMatrices:
     return BeamMatrices(**vectors, **matrices, bubbles=elements * bubbles)
 
 
-def places(j: int, elements: int, bubbles: bool) -> list[int]:
-    """Places of the coordinates of element j among those of the beam."""
+def element_dofs(j: int, elements: int, bubbles: bool) -> list[int]:
+    """Indices of the coordinates of element j in those of the beam."""
     return [*range(3 * j, 3 * j + 6), *[3 * (elements + 1) + j] * bubbles]

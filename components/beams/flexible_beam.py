@@ -1,4 +1,4 @@
-"""FlexibleBeam: an Euler-Bernoulli beam of finite elements in a floating frame."""
+"""FlexibleBeam: Euler-Bernoulli beam of finite elements in a floating frame."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ from components.world import World
 
 
 class FlexibleBeam(Beam):
-    """Straight beam along x of its reference frame that bends in the xy plane of that frame and stretches.
+    """Straight beam along x of its reference frame, with axial deformation and bending in the xy plane of that frame.
 
     Notes
     -----
     Schiavo, Vigano, Ferretti, Object-oriented modelling of flexible beams, Multibody System Dynamics 15 (2006),
-    equations 5 to 16. Sections keep a finite angle: frame_a and frame_b are the material end sections. Deformations are
-    small; a beam that turns faster than its first natural frequency needs geometric_stiffness.
+    equations 5 to 16. frame_a and frame_b are the material end sections, with finite rotation angles. Deformations are
+    small; a beam that rotates faster than its first natural frequency needs geometric_stiffness.
     """
 
     without_soft = 'initial="free"'
@@ -52,7 +52,7 @@ class FlexibleBeam(Beam):
         shape=lambda s: (len(s.free),),
         unit=lambda s: [("m", "m", "rad")[k % 3] for k in s.free],
         select=PREFER,
-        nominal=1.0,  # vibrations much smaller than the machine are not followed
+        nominal=1.0,  # m: the error test ignores vibrations much smaller than the machine
     )
     qd: Any = variable(
         "der(q)",
@@ -67,7 +67,7 @@ class FlexibleBeam(Beam):
         unit=lambda s: [("m/s2", "m/s2", "rad/s2")[k % 3] for k in s.free],
     )
     tension: Any = variable(
-        "axial force of each element, where its stretch is not integrated",
+        "axial force of each element, unless its stretch is a state",
         shape=lambda s: (s.elements * s._has_tension,),
         unit="N",
     )
@@ -79,19 +79,19 @@ class FlexibleBeam(Beam):
 
     @property
     def free(self) -> list[int]:
-        """Nodal coordinates that are integrated."""
-        return [k for k in self._loose if (self.bending if k % 3 else self.axial == "dynamic")]
+        """Indices of the nodal coordinates that are states."""
+        return [k for k in self._unfixed if (self.bending if k % 3 else self.axial == "dynamic")]
 
     @property
-    def _loose(self) -> list[int]:
-        """Nodal coordinates that are not zero by the choice of the reference frame (equation 13)."""
+    def _unfixed(self) -> list[int]:
+        """Indices of the nodal coordinates that the reference frame does not fix at zero (equation 13)."""
         last = 3 * self.elements
         fixed = (0, 1, 2) if self.reference == "tangent" else (0, 1, last + 1)
         return [k for k in range(last + 3) if k not in fixed]
 
     @property
     def _has_tension(self) -> bool:
-        """Whether axial forces count although no stretch is integrated."""
+        """Return whether axial forces are unknowns: they act, but the stretch is not a state."""
         return self.axial == "quasi_static" or (self.axial == "none" and self._strain.second_order)
 
     @property
@@ -114,7 +114,7 @@ class FlexibleBeam(Beam):
         R_a = self._rotation(U[2]) if self.reference == "pinned" else null_rotation()
         if self.reference == "pinned":
             yield from move(ref, self.frame_a, np.zeros(3), R_a)
-        # What closes a loop cannot follow forces: there a quasi-static stretch is seen in results of the beam alone.
+        # The closure of a loop cannot depend on forces: in loops only the beam's own results show a quasi-static stretch.
         moves_tip = self.axial == "quasi_static" and not in_loop(self)
         yield from move(ref, b, r_b, R_b, as_expr((sum(self._stretches()), 0.0, 0.0)) if moves_tip else None)
 
@@ -133,22 +133,22 @@ class FlexibleBeam(Beam):
 
     @property
     def _balanced(self) -> list[int]:
-        """Nodal coordinates whose forces balance in an equation."""
-        return [k for k in self._loose if k in self.free or (self._has_tension and k % 3 == 0)]
+        """Indices of the nodal coordinates with an equilibrium equation."""
+        return [k for k in self._unfixed if k in self.free or (self._has_tension and k % 3 == 0)]
 
     def _load(self, U: Any, t_a: Any, f_b: Any, t_b: Any) -> list[Any]:
         """Nodal forces of the loads on both ends, in N, conjugate to U."""
         load, strain = [as_expr(0.0)] * (3 * self.elements + 3), self._strain
-        load[2] = t_a[2] / self._l * strain.turning(U[2])
-        load[-3:] = [f_b[0], f_b[1], t_b[2] / self._l * strain.turning(U[-1])]
+        load[2] = t_a[2] / self._l * strain.angle_derivative(U[2])
+        load[-3:] = [f_b[0], f_b[1], t_b[2] / self._l * strain.angle_derivative(U[-1])]
         return load
 
     def _without_tip_load(self, force: Any, f_b: Any, t_b: Any, balance: Any, drag: Any, U: Any) -> tuple[Any, ...]:
-        """Inertia force, force and moment about the root of the tip, in (41) and (42) less what (43) gives for them.
+        """Inertia force, tip force, and moment of the tip load about the root in (41) and (42), reduced by (43).
 
-        The force on the tip is the sum of the balances of all nodes but the root, the moment the balance of the last node.
-        Volumes in a chain are then coupled less: models/spin_up with 10 volumes has 990 instead of 1046 nonzeros in its
-        Jacobian, with the same 152 unknowns and 310 steps.
+        The tip force is the sum of the balances (43) of all nodes except the root, the tip moment the balance of the last
+        node. This reduces the coupling of volumes in a chain: models/spin_up with 10 volumes has 990 instead of 1046
+        nonzeros in its Jacobian, with the same 152 unknowns and 310 steps.
         """
         rest, far, f, t = ([x[k] for k in range(3)] for x in (force, f_b, f_b, t_b))
         for k in (0, 1):
@@ -156,7 +156,7 @@ class FlexibleBeam(Beam):
                 f[k], far[k] = balance[k - 3], as_expr(0.0)
                 rest[k] = balance[k] - sum(drag[k::3], as_expr(0.0))
         if 3 * self.elements + 2 in self._balanced:
-            t[2] = balance[-1] * (self._l / self._strain.turning(U[-1]))
+            t[2] = balance[-1] * (self._l / self._strain.angle_derivative(U[-1]))
         return as_expr(rest), as_expr(far), as_expr(t) + cross(self._end(U), as_expr(f))
 
     def initial_equations(self):
@@ -175,14 +175,14 @@ class FlexibleBeam(Beam):
         return Strain(self.elements, self._l, self.E * self.A, self.E * self.J, beta, second_order)
 
     def _nodes(self, q: Any) -> Any:
-        """Nodal coordinates in metres, (u, v, l theta) of every node, from the free ones."""
+        """Nodal coordinates in metres, (u, v, l theta) of every node, from the states."""
         full = [as_expr(0.0)] * (3 * self.elements + 3)
         for k, index in enumerate(self.free):
             full[index] = self._l * q[k] if index % 3 == 2 else q[k]
         return as_expr([as_expr(entry.sx) for entry in full])
 
     def _motion(self) -> tuple[Any, Any, Any]:
-        """Nodal coordinates in metres and their first and second derivatives, those of a slow stretch left out."""
+        """Nodal coordinates in metres and their first and second derivatives, without a quasi-static stretch."""
         U, Ud, Udd = self._nodes(self.q), self._nodes(self.qd), self._nodes(self.qdd)
         return (U, Ud, Udd) if self.axial == "dynamic" else self._strain.unstretched(U, Ud, Udd)
 
@@ -197,7 +197,7 @@ class FlexibleBeam(Beam):
         return [self.tension[j] * self._l / (self.E * self.A) for j in range(self.elements)]
 
     def _shape(self) -> Any:
-        """Nodal coordinates in metres as they are seen."""
+        """Nodal coordinates of the displayed shape in metres, including a quasi-static stretch."""
         U = self._motion()[0]
         return shifted(U, self._stretches()) if self.axial == "quasi_static" else U
 
@@ -207,7 +207,7 @@ class FlexibleBeam(Beam):
         return Inertia(matrices, n, self._l, mu, *strain.with_bubbles(*motion), self.centrifugal, self.coriolis)
 
     def _inertia_forces(self, motion: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
-        """Force, moment and nodal forces of inertia (36) to (38), those of the sections included."""
+        """Force, moment and nodal forces of inertia (36) to (38), including rotary inertia."""
         inertia, sections, ref = self._inertia(motion), self._sections(motion), self.ref
         force, moment, nodal = inertia.forces(self._acceleration(inertia), ref.z, ref.R.w)
         nodal = self._strain.without_bubbles(nodal, motion[0]) + sections.nodal(ref.z)
@@ -220,7 +220,7 @@ class FlexibleBeam(Beam):
         return Sections(self.elements, self._l, I, motion[1], motion[2], self.coriolis)
 
     def _rotation(self, turn: Any) -> Any:
-        """Rotation of an end section, of nodal coordinate turn = l v'."""
+        """Rotation of an end section with the nodal coordinate turn = l v'."""
         return planar_rotation(np.array([0.0, 0.0, 1.0]), self._strain.angle(turn)) if self.bending else null_rotation()
 
     def _end(self, U: Any) -> Any:
@@ -234,12 +234,12 @@ class FlexibleBeam(Beam):
         return self.ref.r_0 + resolve1(self.ref.R, inertia.first() / inertia.mass)
 
     def _acceleration(self, inertia: Inertia) -> Any:
-        """Acceleration of the reference frame less that of gravity, resolved in it."""
+        """Acceleration of the reference frame minus gravity, resolved in it."""
         gravity = self.world.acceleration(self._centre(inertia)) if self.weight else np.zeros(3)
         return self.ref.a - resolve2(self.ref.R, gravity)
 
     def stored_energy(self):
-        """Kinetic, elastic and potential energy; that of a stretch only if it is dynamic."""
+        """Kinetic, elastic and potential energy; strain energy of stretch only if it is dynamic."""
         motion, ref = self._motion(), self.ref
         inertia = self._inertia(motion)
         kinetic = inertia.kinetic_energy(ref.v, ref.R.w) + self._sections(motion).kinetic_energy(ref.R.w)
@@ -268,17 +268,17 @@ class FlexibleBeam(Beam):
 
     @observed
     def middle_r_0(self):
-        """Position of the material middle point, resolved in the world, in m."""
+        """Position of the material midpoint, resolved in the world, in m."""
         U, half = self._shape(), self.elements // 2
         at = self._strain.middle(U, half) if self.elements % 2 else (U[3 * half], U[3 * half + 1])
         return self.ref.r_0 + resolve1(self.ref.R, as_expr((self.length / 2 + at[0], at[1], 0.0)))
 
     @observed
     def node_force(self):
-        """Force on the part towards frame_a at every node, shape (nodes, 3), resolved in the reference frame, in N."""
+        """Section force on the side of frame_a at every node, shape (nodes, 3), resolved in the reference frame, in N."""
         return as_expr([[force[i] for i in range(3)] for force, _ in section_loads(self)])
 
     @observed
     def node_moment(self):
-        """Moment on the part towards frame_a at every node, shape (nodes, 3), resolved in the reference frame, N.m."""
+        """Section moment on the side of frame_a at every node, shape (nodes, 3), resolved in the reference frame, N.m."""
         return as_expr([[moment[i] for i in range(3)] for _, moment in section_loads(self)])

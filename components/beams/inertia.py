@@ -1,4 +1,4 @@
-"""Inertia forces of a beam in a moving frame: every coupling of rigid motion and deformation."""
+"""Inertia forces of a beam in a moving frame, with all couplings of rigid-body motion and deformation."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 
 from acausal import as_expr, cross, dot
-from components.beams.element import BeamMatrices, element_matrices, places
+from components.beams.element import BeamMatrices, element_dofs, element_matrices
 
 
 @dataclass(frozen=True)
 class Inertia:
     """Inertia of N elements in a frame with acceleration a, angular acceleration z and angular velocity w.
 
-    A point of the beam is at u = (x + S1 U, S2 U, 0), resolved in the frame, and its acceleration is
-    a + z x u + w x (w x u) + 2 w x du + ddu. The forces are integrals of that over the mass (Schiavo, Vigano, Ferretti
-    2006, equations 36 to 38), written with the integrals of `BeamMatrices`.
+    A point of the beam has the position u = (x + S1 U, S2 U, 0), resolved in the frame, and the acceleration
+    a + z x u + w x (w x u) + 2 w x du + ddu. The inertia forces are its mass integrals (Schiavo, Vigano, Ferretti 2006,
+    equations 36 to 38), expressed by `BeamMatrices`.
 
     Parameters
     ----------
@@ -29,11 +29,11 @@ class Inertia:
     l, mu : Expr
         Length in m and mass in kg of an element.
     U, Ud, Udd : Expr, shape (n,)
-        Coordinates of the matrices in m, and derivatives.
+        Coordinates of the matrices in m, and their derivatives.
     centrifugal, coriolis : bool
-        Whether U has a part in w x (w x u), where the straight beam always has one, and whether 2 w x du counts.
+        Whether w x (w x u) includes U, beside the straight beam, and whether 2 w x du is included.
     rest : Expr or float
-        What U is when the beam is straight.
+        U of the undeformed beam.
     """
 
     matrices: BeamMatrices
@@ -66,7 +66,7 @@ class Inertia:
         Parameters
         ----------
         a, z, w : Expr, shape (3,)
-            Acceleration less gravity, angular acceleration and velocity of the frame, resolved in it.
+            Acceleration minus gravity, angular acceleration and angular velocity of the frame, resolved in it.
 
         Returns
         -------
@@ -116,11 +116,11 @@ class Inertia:
         return as_expr([[yy, -xy, 0.0], [-xy, xx, 0.0], [0.0, 0.0, xx + yy]])
 
     def _straight(self) -> Inertia:
-        """The beam without displacements."""
+        """Inertia of the undeformed beam."""
         return replace(self, U=as_expr(np.ones(self.U.shape)) * self.rest)
 
     def momentum(self) -> Any:
-        """Momenta of the rates of deformation alone, in kg.m/s, shape (n,)."""
+        """Generalised momenta of the deformation rates, without rigid-body motion, in kg.m/s, shape (n,)."""
         return self.mu * ((self.matrices.M11 + self.matrices.M22) @ self.Ud)
 
     def kinetic_energy(self, v: Any, w: Any) -> Any:
@@ -130,8 +130,8 @@ class Inertia:
         translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + self._moment(Ud))
         return (translation + dot(w, I @ w) + 2 * w[2] * self._spin(Ud) + own) / 2
 
-    def deforming(self) -> tuple[Any, Any]:
-        """Momentum of the rates of deformation alone in kg.m/s, and its moment about the origin, along z, in kg.m2/s."""
+    def deformation_momentum(self) -> tuple[Any, Any]:
+        """Momentum of the deformation rates in kg.m/s, and their angular momentum about the origin along z, in kg.m2/s."""
         return self._moment(self.Ud), self._spin(self.Ud)
 
     def _spin(self, rates: Any) -> Any:
@@ -140,10 +140,10 @@ class Inertia:
 
     def element(self, j: int) -> Inertia:
         """Inertia of element j alone, in the same frame."""
-        # An element whose root lies at x = j l is one at the origin with both nodes moved by j l.
+        # An element with its root at x = j l equals one at the origin with both nodes displaced by j l.
         bubble = self.matrices.bubbles > 0
         rest = self.l * np.array([j, 0, 0, j, 0, 0, *[0] * bubble])
-        U, Ud, Udd = ([x[k] for k in places(j, self.elements, bubble)] for x in (self.U, self.Ud, self.Udd))
+        U, Ud, Udd = ([x[k] for k in element_dofs(j, self.elements, bubble)] for x in (self.U, self.Ud, self.Udd))
         return replace(
             self,
             matrices=element_matrices(bubble),

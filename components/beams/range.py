@@ -1,14 +1,14 @@
-"""Where a beam model is valid: what its frames neglect, compared with its deflection.
+"""Range of validity of beam models: neglected forces of the frames, compared with the deflection.
 
 The energy of an inextensible beam whose axis has the slope v' = sin(phi) at arc length x, with the axial force N, is
 
     V = int EJ v''^2 (1 + v'^2 + v'^4 + ...) / 2 + N (v'^2 / 2 + v'^4 / 8 + v'^6 / 16 + ...) dx,
 
-and end moments work on phi = v' + v'^3 / 6 + 3 v'^5 / 40 + ... A linear frame keeps EJ v''^2 / 2 of that, and one of second
-order all with no more than four factors v. The derivatives g of the first terms left out are the neglected forces. Their
-moments bend a frame by K^-1 g, with its bending stiffness K: to first order that is the error, whatever holds the beam at
-its ends, since the balances of whole frames are those of their deflected shapes. Two limits: it follows from loads that
-vary slowly against the first natural frequency, and where a beam vibrates freely the error of phase grows with time.
+and end moments work on phi = v' + v'^3 / 6 + 3 v'^5 / 40 + ... A linear frame includes EJ v''^2 / 2 only, a second-order
+frame all terms up to the fourth power of v. The derivatives g of the first neglected terms are the neglected forces. They
+bend a frame with the bending stiffness K by K^-1 g, which is the first-order error for any boundary conditions, because
+whole frames are balanced in their deflected shapes. Two limitations: the loads must vary slowly compared with the first
+natural frequency, and the phase error of free vibrations grows with time.
 """
 
 from __future__ import annotations
@@ -25,62 +25,66 @@ import numpy as np
 from acausal import Expr, as_expr, cos, expect, sin, sqrt
 from components.beams.strain import Bend, gauss
 
-SHARE = 0.01
-SIDE = 1e-3  # of the length, and of a radian: a third of what structures are usually allowed to deflect, length / 300
-SOFTER = 2.6  # E / G for Poisson's ratio of 0.3
-SEEN = 2e-4  # of the length: errors of much smaller deflections are not reported
-HINGE = 0.1  # of the mean bending moment: an end moment well below that is one of a hinge
+SHARE = 0.01  # error over deflection that gives a warning
+SIDE = (
+    1e-3  # out-of-plane deflection over length, or twist in rad: a third of length / 300, the usual limit in structures
+)
+E_OVER_G = 2.6  # E / G = 2 (1 + nu) for Poisson's ratio nu = 0.3
+SMALLEST = 2e-4  # deflection over length: errors of much smaller deflections are not reported
+HINGE = 0.1  # end moment over mean bending moment: well below it the end counts as a hinge
 
 
 def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
-    """Expect of a beam that consists of flexible beams `frames` that what these neglect is small.
+    """Expect small errors of a beam made of the flexible beams `frames`.
 
     Parameters
     ----------
     beam : Beam
-        The whole.
+        The whole beam.
     frames : list of FlexibleBeam
-        Its frames, from frame_a to frame_b.
+        Its flexible beams, from frame_a to frame_b.
     """
     chain = _Chain(beam, frames)
     yield from _out_of_plane(chain)
     shape, by_axial, by_slope = chain.shape, *chain.errors()
     error = Bend(*(a + s for a, s in zip(by_axial, by_slope, strict=True)))
-    size, whole = chain.deflection(error) * chain.loosened(error), chain.deflection(shape)
-    whole = sqrt(whole * whole + (SEEN * beam.length) * (SEEN * beam.length))
+    size, whole = chain.deflection(error) * chain.amplification(error), chain.deflection(shape)
+    whole = sqrt(whole * whole + (SMALLEST * beam.length) * (SMALLEST * beam.length))
     more = "more volumes" if len(frames) > 1 else "SubstructuredBeam(volumes=...)"
     if beam.geometric_stiffness:
-        text = f"it slopes too much for second-order frames, whose error is not small compared with its deflection; take {more}"
+        text = (
+            f"the slope is too large for second-order frames: the error is not small against the deflection; use {more}"
+        )
         yield expect(size, whole, SHARE, text)
         return
-    # Of the two causes, whose errors may cancel each other, the greater one is reported.
+    # Report the larger of the two errors, which may cancel each other.
     ahead = chain.deflection(by_axial) - chain.deflection(by_slope)
     side = ahead / sqrt(ahead * ahead)
     text = (
-        "its linear frames neglect the effect of the axial force on bending (rotation and tension stiffen, compression "
-        f"softens), which is not small compared with its deflection; take geometric_stiffness=True or {more}"
+        "linear frames neglect the effect of the axial force on bending (rotation and tension stiffen, compression softens): "
+        f"the error is not small against the deflection; use geometric_stiffness=True or {more}"
     )
     yield expect(size * (1 + side) / 2, whole, SHARE, text)
     text = (
-        "it slopes too much for linear frames, whose error is not small compared with its deflection; take "
+        "the slope is too large for linear frames: the error is not small against the deflection; use "
         f"geometric_stiffness=True and, beyond 20 degrees, {more}"
     )
     yield expect(size * (1 - side) / 2, whole, SHARE, text)
 
 
 def _out_of_plane(chain: _Chain) -> Iterator[Any]:
-    """Expect that what the beam is rigid against, bending across its plane and torsion, would be small.
+    """Expect small out-of-plane bending and torsion, which the beam model excludes.
 
-    The moment M about y in a frame of length L is the cubic that has the moments and the forces V across the plane at its ends,
-    which is exact for inertia forces that vary linearly. With M = EJ_y theta', the ends turn against each other by
+    The moment M about y in a frame of length L is the cubic with the moments and out-of-plane forces V at both ends, exact for
+    linearly distributed inertia forces. With M = EJ_y theta', the relative rotation of the ends is
 
         theta = (L (M_a + M_b) / 2 + L^2 (V_a - V_b) / 12) / EJ_y
 
-    and frame_b lies beside the tangent at frame_a by
+    and the distance of frame_b from the tangent at frame_a is
 
         w = (L^2 (7 M_a + 3 M_b) / 20 + L^3 (3 V_a - 2 V_b) / 60) / EJ_y.
 
-    The torsion constant is at most the polar moment J + J_y (Saint-Venant), so the beam twists by the angle below or more.
+    The torsion constant is at most the polar moment J + J_y (Saint-Venant), so the twist angle below is a lower bound.
     """
     beam, n = chain.beam, len(chain.frames)
     l = beam.length / n
@@ -88,21 +92,21 @@ def _out_of_plane(chain: _Chain) -> Iterator[Any]:
     (M_a, T_a, V_a), (M_b, T_b, V_b) = chain.side_loads()
     turns = (l / 2 * (M_a + M_b) + l * l / 12 * (V_a - V_b)) / (beam.E * J_y)
     aside = (l * l / 20 * (7 * M_a + 3 * M_b) + l * l * l / 60 * (3 * V_a - 2 * V_b)) / (beam.E * J_y)
-    beyond = np.arange(n)[::-1]  # volumes behind each
+    beyond = np.arange(n)[::-1]  # number of volumes beyond each
     from_a = abs(_total(aside) + l * _total(beyond * turns))
     from_b = abs(_total(aside) + l * _total(beyond * turns) - beam.length * _total(turns))
     text = (
-        "it is rigid across its xy plane, where its loads would bend it by more than a thousandth of its length; turn it so "
-        "that it is loaded in that plane, or take an FEBody"
+        "the model is rigid out of its xy plane, where the loads would bend the beam by more than 1/1000 of its length; align "
+        "the xy plane with the loads, or use an FEBody"
     )
     yield expect((from_a + from_b + abs(from_a - from_b)) / 2, Expr(beam.length.sx), SIDE, text)
-    text = "it is rigid against torsion, by which its loads would twist it by more than a thousandth of a radian; take an FEBody"
-    yield expect(SOFTER * l / 2 * _total(T_a + T_b) / (beam.E * (beam.J + J_y)), 1.0, SIDE, text)
+    text = "the model is rigid in torsion, but the loads would twist the beam by more than 1/1000 rad; use an FEBody"
+    yield expect(E_OVER_G * l / 2 * _total(T_a + T_b) / (beam.E * (beam.J + J_y)), 1.0, SIDE, text)
 
 
 @dataclass
 class _Chain:
-    """Elements of all frames of a beam, one after the other: vectors with an entry for each."""
+    """Elements of all frames of a beam in series: vectors with one entry per element."""
 
     beam: Any
     frames: list[Any]
@@ -115,17 +119,17 @@ class _Chain:
         roots, tips = (_joined([turns[k]] for _, turns in self.nodes) for k in (0, -1))
         self.ends = (roots, [f.frame_a for f in self.frames]), (tips, [f.frame_b for f in self.frames])
         self.tension = self._tension()
-        # How much each end is one of a hinge: the moment of a clamp is of the size of those in the beam.
+        # Degree to which each end is a hinge, 0 to 1: a clamping moment has the size of the moments in the beam.
         moment = self._stiffness(self.shape) * self.EJ / self.beam.length
         loads = (as_expr(port.t[2].sx) / HINGE for port in (self.beam.frame_a, self.beam.frame_b))
         self.hinged = tuple(moment / (moment + t * t) for t in loads)
 
     def _stiffness(self, e: Bend) -> Any:
-        """Work of the bending forces in a shape, in N.m."""
+        """Work of the bending forces in a given shape, in N.m."""
         return self.EJ / self.l**3 * _total(e.q * e.q + 3 * e.r * e.r)
 
     def side_loads(self) -> Iterator[tuple[Any, Any, Any]]:
-        """Moment about y, torque about x and force along z at the roots and at the tips of the frames, in their axes."""
+        """Moment about y, torque about x and force along z at roots and tips of the frames, in section axes."""
         for sign, (turns, ports) in zip((-1, 1), self.ends, strict=True):
             phi = self.frames[0]._strain.angle(turns)
             t_x, t_y, f_z = (
@@ -134,7 +138,7 @@ class _Chain:
             yield sign * (sin(phi) * t_x + cos(phi) * t_y), sign * (cos(phi) * t_x - sin(phi) * t_y), sign * f_z
 
     def _tension(self) -> Any:
-        """Axial forces in N: straight between those at the ends of a frame, and by its rotation a parabola."""
+        """Axial forces in N: linear between the ends of a frame, plus a parabola by its rotation."""
         along = []
         for turns, ports in self.ends:
             phi = self.frames[0]._strain.angle(turns)
@@ -146,7 +150,7 @@ class _Chain:
         return sum((self._spread(weight, values) for weight, values in parts), as_expr(np.zeros(self.count)))
 
     def _spread(self, weights: np.ndarray, values: Any) -> Any:
-        """For each frame its value times the weights of its elements."""
+        """Distribute the value of each frame to its elements by weights."""
         return _map(np.kron(np.eye(len(self.frames)), weights[:, None]), values)
 
     @cached_property
@@ -156,7 +160,7 @@ class _Chain:
         return Bend(v_2 - v_1, a - b, 2 * (v_2 - v_1) - a - b)
 
     def errors(self) -> tuple[Bend, Bend]:
-        """Bending of every element, in m, that the neglected forces would cause: those of axial forces, and of slopes."""
+        """Bending of every element, in m, by the neglected forces: of axial forces, and of slopes."""
         e, N, power = self.shape, self.tension, 2 if self.beam.geometric_stiffness else 1
         pulls, slopes = [], []
         for sign, slope, bent in gauss(e):
@@ -169,47 +173,47 @@ class _Chain:
         return self._bent(_sum(pulls), zero, zero), self._bent(_sum(slopes), *self._end_forces())
 
     def _end_forces(self) -> Iterator[Any]:
-        """Forces on the nodal coordinates l v' at the roots and at the tips of the frames: end moments on the angle."""
+        """Neglected forces of end moments on the nodal coordinates l v' at roots and tips of the frames."""
         for turns, ports in self.ends:
             slopes = turns / self.l
             neglected = 3 / 8 * _power(slopes, 4) if self.beam.geometric_stiffness else _power(slopes, 2) / 2
             yield -_joined([port.t[2]] for port in ports) / self.l * neglected
 
     def _bent(self, forces: Bend, at_root: Any, at_tip: Any) -> Bend:
-        """Bending by forces on the modes of the elements, at the roots and at the tips of the frames."""
+        """Bending by generalised forces on the elements, and at roots and tips of the frames."""
         n, each = self.n, np.eye(len(self.frames))
         across, ones = forces.d, np.ones(n)
-        if self.beam.reference == "pinned":  # the chord is free to turn
+        if self.beam.reference == "pinned":  # the chord rotates freely
             across = (
                 across - _map(np.kron(each, np.ones((n, n)) / n), across) - self._spread(ones / n, at_root + at_tip)
             )
-        # d = r / 2 + (slopes at both nodes) / 2, where a slope is that at the root less q of all elements before.
+        # d = r / 2 + mean slope of both nodes, and the slope of a node is that of the root minus q of all elements before.
         beyond = np.kron(each, np.triu(np.ones((n, n)), 1) + np.eye(n) / 2)
         soft = self.l**3 / self.EJ
         bent = soft * (forces.q - _map(beyond, across) - self._spread(ones, at_tip))
         return Bend(0 * bent, bent, soft / 3 * (forces.r + across / 2))
 
     def _heights(self, e: Bend) -> Any:
-        """Heights of all nodes above the chord, or the tangent at the root, or at the tip if that alone is clamped, in m."""
+        """Heights of all nodes in m above the chord, or the tangent at the root, or at the tip if only the tip is clamped."""
         k = np.arange(self.count + 1)
-        y = _before((e.r - e.q) / 2 - _before(e.q)[:-1])
+        y = _cumulative((e.r - e.q) / 2 - _cumulative(e.q)[:-1])
         if self.beam.reference == "pinned":
             return y - k / self.count * y[self.count]
         turned = self.hinged[0] * (1 - self.hinged[1])
         return y - turned * (np.ones(k.size) * y[self.count] - (k - self.count) * _total(e.q))
 
     def deflection(self, e: Bend) -> Any:
-        """Greatest height of a node, in m, by the sum of eighth powers, which is smooth."""
+        """Maximum height of a node, in m, approximated by the smooth 8-norm."""
         return sqrt(sqrt(sqrt(_total(_power(self._heights(e), 8)))))
 
-    def loosened(self, e: Bend) -> Any:
-        """How much more a beam that turns bends than by its bending stiffness alone: B / (B - C + H) of a shape.
+    def amplification(self, e: Bend) -> Any:
+        """Amplification of the bending of a rotating beam, relative to its bending stiffness alone: B / (B - C + H).
 
-        C is the work of the centrifugal forces across the beam, w^2 int rho A v^2, and H that of axial forces on the slopes,
-        as far as the frames take them up.
+        B is the work of bending in the shape, C that of the transverse centrifugal forces, w^2 int rho A v^2, and H that of
+        axial forces on the slopes included in the frames.
         """
         y, beam, w = self._heights(e), self.beam, self.frames[0].ref.R.w
-        # A beam between hinges turns until the forces across it have no moment.
+        # A beam between two hinges rotates until the transverse forces have no moment.
         k = np.arange(self.count + 1)
         y = y - k * (self.hinged[0] * self.hinged[1] * _total(k / np.sum(k * k) * y))
         a, b = y[:-1], y[1:]
@@ -220,7 +224,7 @@ class _Chain:
 
 
 def _across(frame: Any) -> tuple[list[Any], list[Any]]:
-    """Displacements v and turns l v' of all nodes, in m."""
+    """Displacements v and rotations l v' of all nodes, in m."""
     found = [as_expr(0.0)] * (3 * frame.elements + 3)
     for k, index in enumerate(frame.free):
         if index % 3:
@@ -229,7 +233,7 @@ def _across(frame: Any) -> tuple[list[Any], list[Any]]:
 
 
 def _at(sign: int, by_slope: Any, by_bent: Any) -> Bend:
-    """Forces on the modes of forces on l v' and l^2 v'' at a point of Gauss."""
+    """Generalised forces on the element modes equivalent to forces on l v' and l^2 v'' at a Gauss point."""
     return Bend(by_slope, sign / root(12) * by_slope - by_bent, sign * root(3) * by_bent)
 
 
@@ -242,17 +246,17 @@ def _power(x: Any, n: int) -> Any:
 
 
 def _joined(parts: Iterable[list[Any]]) -> Any:
-    """Vector of all entries, without units, which deflections and turns share."""
+    """Vector of all entries, without units: displacements and rotations are mixed."""
     return as_expr([Expr(entry.sx) for part in parts for entry in part])
 
 
 def _map(M: np.ndarray, x: Any) -> Any:
-    """Matrix of numbers times a vector, without its units."""
+    """Numerical matrix times a vector, without units."""
     return Expr(as_expr(M).sx @ x.sx, shape=(len(M),))
 
 
-def _before(x: Any) -> Any:
-    """Sum of all entries before each, and of all: one more than there are."""
+def _cumulative(x: Any) -> Any:
+    """Cumulative sums, starting with 0: one entry more than x."""
     return as_expr([as_expr(0), *(Expr(entry) for entry in accumulate(x.sx.elements()))])
 
 

@@ -1,4 +1,4 @@
-"""Force and moment in the sections of a beam, for results."""
+"""Section forces and moments of a beam, for results."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from components.orientation import planar_matrix
 
 
 def section_loads(beam: Any) -> list[tuple[Any, Any]]:
-    """Return force in N and moment in N.m on the part towards frame_a at every node, resolved in the reference frame.
+    """Return section force in N and moment in N.m on the side of frame_a at every node, resolved in the reference frame.
 
-    They are what is applied at the tip, less inertia forces and drag beyond the node. The drag by alpha acts on what moves
-    in the reference frame, and against it on the points that guide that frame: at the root, or, where it is the chord,
-    across it at both ends.
+    They equal the tip load minus the inertia and damping forces beyond the node. The damping forces of alpha act on the
+    velocities in the reference frame, with reactions at the points that guide this frame: the root, or, for the chord, both
+    ends across it.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
     R_b, r_b = planar_matrix(beam._strain.angle(U[-1])), beam._end(U)
     force = R_b.T @ b.f
     if beam.reference == "pinned":
-        _, spin = inertia.deforming()
+        _, spin = inertia.deformation_momentum()
         force += as_expr((0.0, alpha * spin / r_b[0], 0.0))
     moment = R_b.T @ b.t + cross(r_b, force)
     loads = []
@@ -37,7 +37,7 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
         if k:
             nodes, part = slice(3 * k - 3, 3 * k + 3), inertia.element(k - 1)
             own, about, _ = part.forces(a, ref.z, ref.R.w)
-            drag, turning = part.deforming()
+            drag, turning = part.deformation_momentum()
             turned = replace(sections, elements=1, I=sections.I / beam.elements, Ud=Ud[nodes], Udd=Udd[nodes])
             force = force - own - alpha * drag
             moment = moment - about - turned.moment(ref.z, ref.R.w) - as_expr((0.0, 0.0, alpha * turning))

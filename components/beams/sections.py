@@ -1,4 +1,4 @@
-"""Inertia of the sections of a beam against their rotation."""
+"""Rotary inertia of the sections of a beam."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from components.beams.element import beam_matrices
 
 @dataclass(frozen=True)
 class Sections:
-    """Sections of N elements that turn with the frame and, about z, with the slope of the axis.
+    """Sections of N elements that rotate with the frame and, about z, with the slope of the axis.
 
     The angular velocity of a section is w + (0, 0, dv'/dt), resolved in the frame.
 
@@ -22,11 +22,11 @@ class Sections:
     l : Expr
         Length of an element in m.
     I : Expr, shape (3,)
-        Moments of inertia of all sections about x, y and z in kg.m2; an entry that is 0 has no effect.
+        Moments of inertia of all sections about x, y and z in kg.m2; a zero entry has no effect.
     Ud, Udd : Expr, shape (3 N + 3,)
         Derivatives of the nodal coordinates in m/s and m/s2.
     coriolis : bool
-        Whether the rates of deformation meet the angular velocity.
+        Whether products of deformation rates and angular velocity are included.
     """
 
     elements: int
@@ -44,7 +44,7 @@ class Sections:
         return self._per_length * (U[-2] - U[1])
 
     def moment(self, z: Any, w: Any) -> Any:
-        """Moment of inertia forces in N.m, with angular acceleration and velocity of the frame resolved in it."""
+        """Inertia moment in N.m; angular acceleration and angular velocity of the frame are resolved in it."""
         h = self._spin(self.Ud) if self.coriolis else 0.0
         relative = as_expr((w[1] * h, -w[0] * h, self._spin(self.Udd)))
         return self.I * z + cross(w, self.I * w) + relative

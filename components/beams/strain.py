@@ -25,10 +25,10 @@ class Bend(NamedTuple):
 class Strain:
     """Strain of N elements with nodal coordinates U = (u, v, l theta) in m.
 
-    With `second_order`, a beam that slopes by v' = sin(phi) at arc length x reaches less far along the axis: by
-    f = 1 - cos(phi) = v'^2 / 2 + v'^4 / 8 per length; and its curvature is v'' / cos(phi). The axial strain of an element is
-    the mean of u' + f: linear u cannot balance f at each point (membrane locking). What varies linearly in an element is
-    taken up by a displacement c xi (1 - xi) along the beam, with c such that the first moment of u' + v'^2 / 2 is 0. The
+    With `second_order`, the slope v' = sin(phi) at arc length x shortens the projection on the axis by
+    f = 1 - cos(phi) = v'^2 / 2 + v'^4 / 8 per unit length, and the curvature is v'' / cos(phi). The axial strain of an
+    element is the mean of u' + f, because a linear u cannot balance f pointwise (membrane locking). An axial bubble
+    c xi (1 - xi), with c such that the first moment of u' + v'^2 / 2 vanishes, balances the linear part of f. The strain
     energy is the sum of N^2 l / (2 E A) and of E J v''^2 (1 + v'^2) / 2, so that axial forces N act on the slopes.
 
     Parameters
@@ -73,16 +73,16 @@ class Strain:
         return found
 
     def _steepness(self, e: Bend) -> Any:
-        """Derivative of the shortening by half the integral of v'^2."""
+        """Derivative of the shortening with respect to half the integral of v'^2."""
         return 1 + self._slopes(e, e) / (2 * self.l)
 
     def unstretched(self, U: Any, Ud: Any, Udd: Any) -> tuple[Any, Any, Any]:
-        """Nodal coordinates and derivatives, with u such that no element changes its length."""
+        """Nodal coordinates and derivatives, with u such that all element lengths are constant."""
         g, gd, gdd = zip(*self.shortening(U, Ud, Udd), strict=True)
         return shifted(U, [-x for x in g]), shifted(Ud, [-x for x in gd]), shifted(Udd, [-x for x in gdd])
 
     def with_bubbles(self, U: Any, Ud: Any, Udd: Any) -> tuple[Any, Any, Any]:
-        """Append c and its derivatives of every element, in m; nothing without second order."""
+        """Append c of every element and its derivatives, in m; unchanged without second order."""
         if not self.second_order:
             return U, Ud, Udd
         c, cd, cdd = [], [], []
@@ -104,9 +104,9 @@ class Strain:
         return (u_1 + u_2) / 2 + self.bubble(U, j) / 4, (v_1 + v_2) / 2 + (a - b) / 8
 
     def tangents(self, U: Any) -> list[tuple[Any, Any]]:
-        """Derivatives of the axis by the part xi of an element, along and across it, at every node, in m.
+        """Tangent d/dxi of the deformed axis, along and across the beam, at every node, in m.
 
-        Of the stretches on both sides of a node, the mean counts.
+        At a node the mean of the stretches on both sides is used.
         """
         stretches, found = [e for e, _ in self._extensions(U, U)], []
         for k in range(self.elements + 1):
@@ -119,7 +119,7 @@ class Strain:
         return (e.r / 10 - e.d / 2) / self.l
 
     def without_bubbles(self, forces: Any, U: Any) -> Any:
-        """Nodal forces of forces on the coordinates and on c, which follows from the slopes."""
+        """Nodal forces equivalent to forces on the coordinates and on c, which is a function of the slopes."""
         n = 3 * self.elements + 3
         total = [forces[k] for k in range(n)]
         for j, e in enumerate(self._bends(U) if self.second_order else ()):
@@ -128,17 +128,17 @@ class Strain:
         return as_expr(total)
 
     def angle(self, turn: Any) -> Any:
-        """Angle in rad of a section whose nodal coordinate is turn = l v', with v' = sin(angle) in second order."""
+        """Angle in rad of a section with the nodal coordinate turn = l v'; v' = sin(angle) in second order."""
         slope = turn / self.l
         return slope + slope * slope * slope / 6 if self.second_order else slope
 
-    def turning(self, turn: Any) -> Any:
-        """Derivative of the angle by the slope."""
+    def angle_derivative(self, turn: Any) -> Any:
+        """Derivative of the angle with respect to the slope."""
         slope = turn / self.l
         return 1 + slope * slope / 2 if self.second_order else 1.0
 
     def stretching(self, U: Any, Ud: Any) -> list[Any]:
-        """Axial force of each element by its extension, in N."""
+        """Axial force of each element from its extension, in N."""
         return [self.EA / self.l * (e + self.beta * rate) for e, rate in self._extensions(U, Ud)]
 
     def _extensions(self, U: Any, Ud: Any) -> list[tuple[Any, Any]]:
@@ -164,7 +164,7 @@ class Strain:
         return as_expr(total)
 
     def _steep_bending(self, e: Bend) -> Bend:
-        """Derivatives of E J v''^2 v'^2 / 2, integrated by two points of Gauss."""
+        """Derivatives of E J v''^2 v'^2 / 2, by two-point Gauss quadrature."""
         on = [as_expr(0.0)] * 3
         for sign, slope, bent in gauss(e):
             by_slope, by_bent = (self.EJ / (2 * self.l**5) * x for x in (slope * bent * bent, slope * slope * bent))
@@ -173,7 +173,7 @@ class Strain:
         return Bend(*on)
 
     def energy(self, U: Any, stretches: bool) -> Any:
-        """Elastic energy in J; that of stretch only if the axis stretches."""
+        """Strain energy in J; that of stretch only if `stretches`."""
         total = as_expr(0.0)
         for e in self._bends(U):
             total += self.EJ / self.l**3 * (e.q * e.q + 3 * e.r * e.r) / 2
@@ -189,7 +189,7 @@ class Strain:
 
 
 def shifted(U: Any, lengths: list[Any]) -> Any:
-    """Add to u of each node the lengths of the elements before it."""
+    """Add the cumulative lengths of the preceding elements to u of each node."""
     entries, total = [U[k] for k in range(U.shape[0])], as_expr(0.0)
     for j, length in enumerate(lengths):
         total = total + length
@@ -198,7 +198,7 @@ def shifted(U: Any, lengths: list[Any]) -> Any:
 
 
 def gauss(e: Bend) -> list[tuple[int, Any, Any]]:
-    """Return the sign of eta, l v' and l^2 v'' at the two points of Gauss, eta = 1 / sqrt(3) and its opposite."""
+    """Return the sign of eta, l v' and l^2 v'' at the two Gauss points eta = 1 / sqrt(3) and -1 / sqrt(3)."""
     return [(sign, e.d + sign / sqrt(12) * e.q, sign * sqrt(3) * e.r - e.q) for sign in (1, -1)]
 
 
@@ -207,7 +207,7 @@ def _joined(U: Any, more: list[Any]) -> Any:
 
 
 def _add(total: list[Any], j: int, on: Bend) -> None:
-    """Add the nodal forces of forces on the bending of element j."""
+    """Add the nodal forces equivalent to generalised forces on the bending of element j."""
     across = on.d + 2 * on.r
     for k, force in ((1, -across), (2, on.q - on.r), (4, across), (5, -on.q - on.r)):
         total[3 * j + k] += force

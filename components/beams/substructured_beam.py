@@ -1,4 +1,4 @@
-"""SubstructuredBeam: flexible beams connected in a chain, for large deflections."""
+"""SubstructuredBeam: chain of flexible beams, for large deflections."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from components.beams.flexible_beam import FlexibleBeam
 
 
 class SubstructuredBeam(Beam):
-    """Beam of several volumes, each a FlexibleBeam in a frame of its own: geometrically non-linear.
+    """Geometrically non-linear beam of several volumes, each a FlexibleBeam with its own floating frame.
 
     Notes
     -----
-    Schiavo, Vigano, Ferretti 2006, section 3.4: the compatibility of the volumes is what connecting them means.
+    Schiavo, Vigano, Ferretti 2006, section 3.4; the connections of the volumes are the compatibility conditions.
     """
 
     volumes: int = structural("number of volumes", default=5, minimum=1, refine=lambda s: s.adaptive)
@@ -84,22 +84,22 @@ class SubstructuredBeam(Beam):
 
     @observed
     def middle_r_0(self):
-        """Position of the material middle point, resolved in the world, in m."""
+        """Position of the material midpoint, resolved in the world, in m."""
         half = self.volumes // 2
         return self.volume[half].middle_r_0 if self.volumes % 2 else self.volume[half].frame_a.r_0
 
     @observed
     def node_force(self):
-        """Force on the part towards frame_a at every node, shape (nodes, 3), in the frame of the node's volume, in N."""
+        """Section force on the side of frame_a at every node, shape (nodes, 3), in the frame of its volume, in N."""
         return self._nodes("node_force")
 
     @observed
     def node_moment(self):
-        """Moment on the part towards frame_a at every node, shape (nodes, 3), in the frame of its volume, in N.m."""
+        """Section moment on the side of frame_a at every node, shape (nodes, 3), in the frame of its volume, in N.m."""
         return self._nodes("node_moment")
 
     def _nodes(self, name: str) -> Any:
-        """Rows of all volumes; a shared node counts for the volume that ends in it."""
+        """Rows of all volumes; a shared node belongs to the preceding volume."""
         rows = []
         for k, volume in enumerate(self.volume):
             own = getattr(volume, name)

@@ -1,4 +1,4 @@
-"""What a beam looks like: a tube along its deformed axis."""
+"""Shape of a beam: a tube along the deformed axis."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ from components.orientation import resolve1
 
 
 def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
-    """Return the axis of a beam that consists of flexible beams `frames`, with the ellipse of its moments of area.
+    """Return the deformed axis of a beam, with an elliptical section that has the beam's second moments of area.
 
-    An ellipse of half-axes a, b and area A has A b^2 / 4 as second moment of area; its own area, pi a b, is another one.
-    Deformations are measured from the end section that is nearer to the root of the machine; in closed loops, where the
-    machine holds both ends, from the chord; so the picture does, where something hangs on the other end.
+    An ellipse with half-axes a, b has the second moment A b^2 / 4 for the area A of the beam, which differs from pi a b.
+    The undeformed reference is attached to the end section closer to the root; in closed loops, where the machine holds both
+    ends, to the chord.
 
     Parameters
     ----------
     beam : Beam
-        The whole.
+        The whole beam.
     frames : list of FlexibleBeam
-        Its frames, from frame_a to frame_b.
+        Its flexible beams, from frame_a to frame_b.
     """
     count = len(frames) * frames[0].elements
-    held, first = (beam.frame_a, 0) if rooted(frames[0].ref, frames[0].frame_b) else (beam.frame_b, count)
+    fixed, first = (beam.frame_a, 0) if rooted(frames[0].ref, frames[0].frame_b) else (beam.frame_b, count)
     about_y = beam.J if beam.J_y.sx.is_zero() else beam.J_y
     return geometry.Curve(
         points=beam.node_r_0,
         tangents=_of_nodes(frames, _tangents),
         section=(2 * sqrt(about_y / beam.A), 2 * sqrt(beam.J / beam.A)),
         up=resolve1(beam.frame_a.R, as_expr((0.0, 1.0, 0.0))),
-        rest=None if in_loop(beam) else pose(held),
+        rest=None if in_loop(beam) else pose(fixed),
         rest_points=as_expr([[(k - first) * beam.length / count, 0.0, 0.0] for k in range(count + 1)]),
         values=(
             geometry.Values("bending moment", "N.m", lambda: _of_nodes(frames, _moments)),
@@ -43,12 +43,12 @@ def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
 
 
 def _of_nodes(frames: list[Any], entries: Callable[[Any], list[Any]]) -> Any:
-    """Entries of all nodes; a node that two frames share counts for the one that ends in it."""
+    """Entries of all nodes; a shared node belongs to the preceding frame."""
     return as_expr([entry for k, frame in enumerate(frames) for entry in entries(frame)[k > 0 :]])
 
 
 def _tangents(frame: Any) -> list[Any]:
-    """Derivative of the axis by the part of an element, resolved in the world, in m."""
+    """Tangent d/dxi of the deformed axis at every node, resolved in the world, in m."""
     local = frame._strain.tangents(frame._shape())
     return [resolve1(frame.ref.R, as_expr((along, across, 0.0))) for along, across in local]
 
@@ -59,6 +59,6 @@ def _moments(frame: Any) -> list[Any]:
 
 
 def _axial_forces(frame: Any) -> list[Any]:
-    """Force across each section, in N, positive as a tension."""
+    """Axial force in each section, in N, positive in tension."""
     force, moved = frame.node_force, frame.node_deflection
     return [force[k, 0] * cos(moved[k, 2]) + force[k, 1] * sin(moved[k, 2]) for k in range(frame.elements + 1)]

@@ -1,4 +1,4 @@
-"""Joints as constraints between bodies that move on their own."""
+"""Joints as constraints between bodies with states of their own."""
 
 from components.constraints.position_constraint import PositionConstraint
 from components.constraints.prismatic import Prismatic

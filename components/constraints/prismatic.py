@@ -8,9 +8,9 @@ from components.frame import turn_between
 
 
 class Prismatic(PositionConstraint):
-    """Holds two frames parallel, and their origins together but for the directions that are not locked."""
+    """Keeps two frames parallel and their origins coincident along the locked directions."""
 
-    def turning(self, t_b_a):
+    def rotational_constraints(self, t_b_a):
         yield turn_between(self.frame_a, self.frame_b) == (0, 0, 0)
 
     def shapes(self):

@@ -12,20 +12,20 @@ from components.world import require_direction
 
 
 class Revolute(PositionConstraint):
-    """Holds the origins of two frames together, and an axis of theirs; frame_b turns about it."""
+    """Keeps the origins and the axis n of two frames coincident; frame_b rotates about n."""
 
     n: Any = structural(
-        "axis of rotation, the same in frame_a and frame_b", default=(0, 1, 0), shape=(3,), doc="Any length but 0."
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 1, 0), shape=(3,), doc="Any nonzero length."
     )
 
     def check(self) -> None:
-        """Refuse an axis of length 0."""
+        """Reject an axis of length 0."""
         require_direction(self, self.n, "n")
 
-    def turning(self, t_b_a):
+    def rotational_constraints(self, t_b_a):
         n = unit_vector(self.n)
         for e in across(n):
-            yield dot(e, self.seen(n)) == 0
+            yield dot(e, self.resolved_in_a(n)) == 0
         yield dot(n, self.frame_b.t) == 0
 
     def shapes(self):

@@ -8,9 +8,9 @@ from components.frame import pose
 
 
 class Spherical(PositionConstraint):
-    """Holds the origins of two frames together; they turn freely."""
+    """Keeps the origins of two frames coincident; rotation is free."""
 
-    def turning(self, t_b_a):
+    def rotational_constraints(self, t_b_a):
         yield self.frame_b.t == (0, 0, 0)
 
     def shapes(self):

@@ -1,4 +1,4 @@
-"""Contacts with friction between points, spheres, rims of wheels, planes and profiles."""
+"""Contacts with friction between points, spheres, wheel rims, planes and profiles."""
 
 from components.contact.contact import Contact
 from components.contact.point_on_plane import PointOnPlane

@@ -27,14 +27,14 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class Contact(HeatLoss, TwoFrames):
-    """Base of contacts; a subclass states its stiffness k and its place().
+    """Base of compliant contacts; a subclass defines the stiffness k and contact_geometry().
 
     Notes
     -----
     In contact, x > 0, the normal force is f = max(0, k x^n (1 + chi der(x))) (Hunt and Crossley 1975), with n = 1.5 for
-    spheres and n = 1 for points and rims; it never pulls. Friction is mu f v_slip / sqrt(v_slip^2 + v_reg^2) against the
-    sliding. It does not stick: under a load of q mu f, q < 1, the contact creeps at v_reg q / sqrt(1 - q^2), for
-    example at 0.6 v_reg where half of the greatest friction acts. No branch: each frame must be held by something else.
+    spheres and n = 1 for points and rims; there is no adhesion. The friction force mu f v_slip / sqrt(v_slip^2 + v_reg^2)
+    opposes sliding. There is no stiction: under a load q mu f, q < 1, the contact creeps at v_reg q / sqrt(1 - q^2), for
+    example at 0.6 v_reg under half of the largest friction force. No branch: other parts must hold both frames.
     """
 
     n: ClassVar[float] = 1.0
@@ -44,41 +44,41 @@ class Contact(HeatLoss, TwoFrames):
         unit="s/m",
         default=0,
         minimum=0,
-        doc="Restitution falls with the speed of impact: e is about 1 - 2/3 chi v for small chi v.",
+        doc="The coefficient of restitution decreases with the impact speed v: about 1 - 2/3 chi v for small chi v.",
     )
     e: Scalar = parameter(
         "coefficient of restitution",
         unit="1",
         default=1,
         positive=True,
-        doc="Speed of separation over speed of approach, at most 1, in place of dissipation; exact where other forces are small "
-        "against f, and the approach is faster than v_e. Its dissipation lasts until the next touch.",
+        doc="Separation speed over approach speed, at most 1; replaces dissipation. Exact if other forces are small compared "
+        "with f and the approach is faster than v_e. Each impact sets the dissipation until the next one.",
     )
     v_e: Scalar = parameter(
-        "least speed of approach at which e holds",
+        "smallest approach speed at which e holds",
         unit="m/s",
         default=1e-3,
         positive=True,
-        doc="Slower impacts, and a contact at the start, have the dissipation of this speed.",
+        doc="Slower impacts, and initial contacts, have the dissipation of this speed.",
     )
     mu: Scalar = parameter("coefficient of friction", unit="1", default=0, minimum=0)
     v_reg: Scalar = parameter(
-        "speed that regularises friction",
+        "speed of regularisation of friction",
         unit="m/s",
         default=1e-3,
         positive=True,
-        doc="At this speed 71 % of mu f act; a load of q mu f, q < 1, does not stick but creeps at v_reg q / sqrt(1 - q^2).",
+        doc="At this speed friction is 71 % of mu f; under a load q mu f, q < 1, the contact creeps at v_reg q / sqrt(1 - q^2).",
     )
-    x: Scalar = variable("penetration, negative where there is a gap", unit="m")
+    x: Scalar = variable("penetration, negative for a gap", unit="m")
     v: Scalar = variable("der(x)", unit="m/s")
     f: Scalar = variable("normal force, not negative", unit="N")
-    v_slip: Vector3 = variable("sliding velocity of frame_b's part on frame_a's, resolved in the world", unit="m/s")
-    v_touch: Scalar = discrete("speed of approach at the last touch", unit="m/s")
+    v_slip: Vector3 = variable("sliding velocity of body b relative to body a, resolved in the world", unit="m/s")
+    v_touch: Scalar = discrete("approach speed at the last impact", unit="m/s")
 
     def equations(self):
         yield from super().equations()
         a, b = self.frame_a, self.frame_b
-        n, x, at = self.place()
+        n, x, at = self.contact_geometry()
         arm_a, arm_b = at - a.r_0, at - b.r_0
         v_a, v_b = (
             resolve1(end.R, end.v + cross(end.R.w, resolve2(end.R, arm))) for end, arm in ((a, arm_a), (b, arm_b))
@@ -95,20 +95,20 @@ class Contact(HeatLoss, TwoFrames):
         yield a.f == resolve2(a.R, force)
         yield a.t == resolve2(a.R, cross(arm_a, force))
 
-    def place(self) -> tuple[Any, Any, Any]:
-        """Normal from frame_a's part to frame_b's, penetration and point of contact, both vectors resolved in the world."""
-        raise NotImplementedError("returns its normal, penetration and point of contact", "return n, x, at")
+    def contact_geometry(self) -> tuple[Any, Any, Any]:
+        """Return normal from body a to body b, penetration and point of contact, vectors resolved in the world."""
+        raise NotImplementedError("returns normal, penetration and point of contact", "return n, x, at")
 
     def steepness(self) -> Any:
-        """Length of the normal, along which f acts."""
+        """Return the length of the normal, which multiplies f."""
         return 1.0
 
     def requirements(self):
         name = self._path or type(self).__name__
-        yield require(self.e <= 1, f"`e` of {name} is greater than 1, so that impacts would supply energy")
+        yield require(self.e <= 1, f"`e` of {name} is greater than 1: impacts would generate energy")
         yield require(
             self.dissipation * (1 - self.e) <= quantity(0.0, "s/m"),
-            f"{name} has both `dissipation` and `e`, which determine the same; give one of them",
+            f"{name} has both `dissipation` and `e`, which determine the same property; give one of them",
         )
 
     def shapes(self):
@@ -124,7 +124,7 @@ class Contact(HeatLoss, TwoFrames):
         return (self.f - self._spring()) * self.v + self._friction() * dot(self.v_slip, self.v_slip)
 
     def _spring(self) -> Expr:
-        """Elastic force, 0 where there is a gap."""
+        """Elastic force, 0 for a gap."""
         return self.k * ((self.x + abs(self.x)) / 2) ** self.n
 
     def _chi(self) -> Expr:
@@ -132,6 +132,6 @@ class Contact(HeatLoss, TwoFrames):
         return self.dissipation + impact_number(self.e) / slow
 
     def _friction(self) -> Expr:
-        """Friction over sliding velocity."""
+        """Friction force over sliding velocity."""
         speed = sqrt(dot(self.v_slip, self.v_slip) + self.v_reg**2)
         return self.mu * self.f * self.steepness() / speed

@@ -1,4 +1,4 @@
-"""PointOnPlane: a point that touches a plane."""
+"""PointOnPlane: contact of a point with a plane."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ class PointOnPlane(Contact):
         "normal of the plane towards the side of frame_b, resolved in frame_a",
         default=(0, 1, 0),
         shape=(3,),
-        doc="Any length but 0.",
+        doc="Any nonzero length.",
     )
     k: Scalar = parameter("stiffness", unit="N/m", positive=True)
 
     def check(self) -> None:
-        """Refuse a normal of length 0."""
+        """Reject a normal of length 0."""
         require_direction(self, self.n_a, "n_a")
 
-    def place(self):
-        """The point itself."""
+    def contact_geometry(self):
+        """Normal, penetration and position of the point."""
         a, b = self.frame_a, self.frame_b
         n = resolve1(a.R, unit_vector(self.n_a))
         return n, -dot(n, b.r_0 - a.r_0), b.r_0

@@ -1,4 +1,4 @@
-"""RimOnPlane: the rim of a wheel that touches a plane."""
+"""RimOnPlane: contact of a wheel rim with a plane."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from components.frame import pose
 from components.orientation import resolve1, unit_vector
 from components.world import require_direction
 
-FLAT = 1e-6  # rad: at smaller angles between the rim and the plane its lowest point has no direction
+FLAT = 1e-6  # angle between rim and plane in rad: below it round-off determines the direction of the lowest point
 
 
 class RimOnPlane(Contact):
@@ -18,30 +18,30 @@ class RimOnPlane(Contact):
 
     Notes
     -----
-    The lowest point of the circle touches; where its radius is turned from the plane by the angle alpha, the penetration is
-    x = radius sin(alpha) - height. Flat on the plane, alpha = 0, no point is the lowest, and a run that passes that in contact
-    ends with an error: a disc that falls over needs contacts at several points.
+    The lowest point of the circle is in contact; at the angle alpha between circle and plane, the penetration is
+    x = radius sin(alpha) - height. At alpha = 0 there is no lowest point, and a run that reaches this singular configuration
+    in contact ends with an error: a disc that falls over needs contacts at several points.
     """
 
     n_a: Any = structural(
         "normal of the plane towards the wheel, resolved in frame_a",
         default=(0, 1, 0),
         shape=(3,),
-        doc="Any length but 0.",
+        doc="Any nonzero length.",
     )
     n_b: Any = structural(
-        "axis of the wheel, resolved in frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+        "axis of the wheel, resolved in frame_b", default=(0, 0, 1), shape=(3,), doc="Any nonzero length."
     )
     radius: Scalar = parameter("radius of the rim", unit="m", positive=True)
     k: Scalar = parameter("stiffness", unit="N/m", positive=True)
 
     def check(self) -> None:
-        """Refuse directions of length 0."""
+        """Reject directions of length 0."""
         require_direction(self, self.n_a, "n_a")
         require_direction(self, self.n_b, "n_b")
 
-    def place(self):
-        """The lowest point of the rim."""
+    def contact_geometry(self):
+        """Normal, penetration and position of the lowest point of the rim."""
         n, axis = self._directions()
         up, sine = self._up(n, axis)
         lowest = self.frame_b.r_0 - up * (self.radius / sine)
@@ -53,7 +53,7 @@ class RimOnPlane(Contact):
         name = self._path or type(self).__name__
         yield require(
             sqrt(dot(up, up)) > 2 * FLAT,
-            f"the rim of {name} is parallel to the plane at the start, so that it has no lowest point; turn it, or its "
+            f"the rim of {name} is parallel to the plane at the start and has no lowest point; rotate the wheel, or its "
             "axis: n_b=(0, 0, 1)",
         )
 
@@ -65,8 +65,8 @@ class RimOnPlane(Contact):
             up,
             -dot(n, axis) * dot(n, cross(w, axis)) / sine,
             self.f,
-            "its rim is parallel to the plane, where it has no lowest point. Let it not fall over, or use contacts at "
-            "several points of it",
+            "the rim is parallel to the plane and has no lowest point. Keep the wheel from falling over, or use contacts at "
+            "several points of the rim",
         )
 
     def shapes(self):
@@ -79,7 +79,7 @@ class RimOnPlane(Contact):
         return resolve1(self.frame_a.R, unit_vector(self.n_a)), resolve1(self.frame_b.R, unit_vector(self.n_b))
 
     def _up(self, n: Any, axis: Any) -> tuple[Any, Any]:
-        """Part of the normal in the plane of the rim, and its length, the sine of the angle between both planes."""
+        """Component of the normal in the plane of the rim, and its length, the sine of the angle between both planes."""
         up = n - dot(n, axis) * axis
         square = dot(up, up)
         return up, sqrt(piecewise((square, square > FLAT**2), FLAT**2, smooth=True))

@@ -1,4 +1,4 @@
-"""SphereOnPlane: a sphere that touches a plane."""
+"""SphereOnPlane: contact of a sphere with a plane."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ class SphereOnPlane(Contact):
         "normal of the plane towards the sphere, resolved in frame_a",
         default=(0, 1, 0),
         shape=(3,),
-        doc="Any length but 0.",
+        doc="Any nonzero length.",
     )
     radius: Scalar = parameter("radius of the sphere", unit="m", positive=True)
     k: Scalar = parameter("stiffness", unit="N/m^(3/2)", positive=True)
 
     def check(self) -> None:
-        """Refuse a normal of length 0."""
+        """Reject a normal of length 0."""
         require_direction(self, self.n_a, "n_a")
 
-    def place(self):
-        """The point of the plane nearest to the centre."""
+    def contact_geometry(self):
+        """Normal, penetration and the point of the plane closest to the centre."""
         a, b = self.frame_a, self.frame_b
         n = resolve1(a.R, unit_vector(self.n_a))
         height = dot(n, b.r_0 - a.r_0)

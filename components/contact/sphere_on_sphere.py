@@ -1,4 +1,4 @@
-"""SphereOnSphere: two spheres that touch."""
+"""SphereOnSphere: contact of two spheres."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from components.contact.contact import Contact
 from components.contact.sphere_range import shallow
 from components.frame import pose
 
-CONCENTRIC = 1e-10  # of the sum of the radii: shorter distances of the centres have no direction
+CONCENTRIC = 1e-10  # distance of the centres over the sum of the radii: below it round-off determines the normal
 
 
 class SphereOnSphere(Contact):
@@ -26,8 +26,8 @@ class SphereOnSphere(Contact):
     radius_b: Scalar = parameter("radius of the sphere at frame_b", unit="m", positive=True)
     k: Scalar = parameter("stiffness", unit="N/m^(3/2)", positive=True)
 
-    def place(self):
-        """The middle of the penetration, on the line between the centres."""
+    def contact_geometry(self):
+        """Normal, penetration and its midpoint on the line between the centres."""
         a, r = self.frame_a, self.frame_b.r_0 - self.frame_a.r_0
         square, least = dot(r, r), (CONCENTRIC * (self.radius_a + self.radius_b)) ** 2
         distance = sqrt(piecewise((square, square > least), least, smooth=True))
@@ -39,8 +39,8 @@ class SphereOnSphere(Contact):
         name, r = self._path or type(self).__name__, self.frame_b.r_0 - self.frame_a.r_0
         yield require(
             sqrt(dot(r, r)) > 2 * CONCENTRIC * (self.radius_a + self.radius_b),
-            f"the spheres of {name} are concentric at the start, so that their contact has no direction; place frame_a and "
-            "frame_b apart",
+            f"the spheres of {name} are concentric at the start and their contact has no normal; separate frame_a and "
+            "frame_b",
         )
 
     def validity(self):
@@ -49,7 +49,7 @@ class SphereOnSphere(Contact):
             self.frame_b.r_0 - self.frame_a.r_0,
             -self.v,
             self.f,
-            "its spheres are concentric, where their contact has no direction; take a greater `k`, so that they do not pass "
+            "the spheres are concentric and their contact has no normal; increase `k`, so that the spheres do not pass "
             "through each other",
         )
 

@@ -1,4 +1,4 @@
-"""Where the theory of contacts between spheres is valid."""
+"""Range of validity of Hertz contacts of spheres."""
 
 from __future__ import annotations
 
@@ -6,13 +6,10 @@ from typing import Any
 
 from acausal import expect
 
-SHARE = 0.1  # of the radius: there the radius of the area of contact is 30 % of that of the sphere, which Hertz takes as small
+SHARE = 0.1  # penetration over radius: the contact radius, small in Hertz's theory, is then 30 % of that of the sphere
 
 
 def shallow(x: Any, radius: Any) -> Any:
-    """Expect that the penetration is small compared with the radius."""
-    text = (
-        "its sphere is pressed in by more than a tenth of its radius, where the force of a contact is no longer k x^1.5; take "
-        "a greater `k`"
-    )
+    """Expect a penetration that is small compared with the radius."""
+    text = "the penetration of the sphere exceeds a tenth of its radius, beyond the range of the Hertz law k x^1.5; increase `k`"
     return expect((x + abs(x)) / 2, radius, SHARE, text)

@@ -38,7 +38,7 @@ from components.fe.reconfigured_inertia import ReconfiguredInertia
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.skin import box_of_inertia, mesh
 from components.frame import Frame, move, pose
-from components.moving_body import MovingBody, off_centre, past_centre
+from components.moving_body import MovingBody, point_gravity_requirements, point_gravity_validity
 from components.orientation import (
     absolute_rotation,
     fixed_rotation,
@@ -207,11 +207,11 @@ class FEBody(MovingBody):
                 yield soft(q == as_expr(np.zeros(self.modes)))
 
     def requirements(self):
-        yield from off_centre(self, self.world, self._centre())
+        yield from point_gravity_requirements(self, self.world, self._centre())
         yield from (Moments(self._body).none(interface, frame) for interface, frame in self._points)
 
     def validity(self):
-        yield from past_centre(self.world, self._inertia.mass, self._centre(), self._velocity())
+        yield from point_gravity_validity(self.world, self._inertia.mass, self._centre(), self._velocity())
         yield from (Moments(self._body).stays_none(interface, frame) for interface, frame in self._points)
         if self.check_range:
             if np.any(self._body.frequencies > 0):

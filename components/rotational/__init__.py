@@ -1,4 +1,4 @@
-"""Rotation: inertias, torsional springs, dampers, gears, drives and sensors in one dimension."""
+"""One-dimensional rotation: inertias, torsional springs, dampers, gears, drives and sensors."""
 
 from components.flange import Flange, TwoFlanges
 from components.rotational.absolute_sensor import AbsoluteSensor

@@ -9,7 +9,7 @@ from components.flange import Flange
 
 
 class AbsoluteSensor(Component):
-    """Base of sensors of a shaft end, which bear no torque; a subclass states what it measures."""
+    """Base of sensors at one shaft end, which transmit no torque; a subclass defines the measured values."""
 
     ends = ("flange", "flange")
     flange: Flange = port(Flange, "measured shaft end")
@@ -20,4 +20,4 @@ class AbsoluteSensor(Component):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")

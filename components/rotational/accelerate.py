@@ -1,4 +1,4 @@
-"""Accelerate: a drive that prescribes the acceleration."""
+"""Accelerate: drive with prescribed angular acceleration."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.rotational.one_flange import OneFlange
 
 
 class Accelerate(OneFlange):
-    """Drive that accelerates the shaft as prescribed, from phi and w at the start."""
+    """Drive that prescribes the angular acceleration of the shaft, starting from phi and w."""
 
     a_ref: Scalar = input("acceleration of the flange", unit="rad/s2")
     phi: Scalar = variable("angle of the flange relative to the support", unit="rad", select=PREFER)

@@ -1,4 +1,4 @@
-"""Brake: holds a shaft by friction."""
+"""Brake: friction brake of a shaft."""
 
 from __future__ import annotations
 
@@ -7,4 +7,4 @@ from components.rotational.shaft_friction import ShaftFriction
 
 
 class Brake(PressedShaft, ShaftFriction):
-    """Friction brake of a rigid massless shaft: slips until the shaft stands still, then holds it up to its greatest torque."""
+    """Friction brake of a rigid massless shaft: slips until standstill, then holds up to the static friction torque."""

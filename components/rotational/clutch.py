@@ -1,4 +1,4 @@
-"""Clutch: couples two shafts by friction."""
+"""Clutch: friction clutch between two shafts."""
 
 from __future__ import annotations
 
@@ -7,4 +7,4 @@ from components.rotational.slipping import Slipping
 
 
 class Clutch(PressedShaft, Slipping):
-    """Friction clutch: slips until both shafts turn alike, then locks up to its greatest torque."""
+    """Friction clutch: slips until both shafts have equal speeds, then locks up to the static friction torque."""

@@ -9,7 +9,7 @@ from components.flange import TwoFlanges
 
 
 class Compliant(TwoFlanges):
-    """Base of torques that depend on the relative angle; a subclass states what tau is."""
+    """Base of torques that depend on the relative angle; a subclass defines tau."""
 
     phi_rel: Scalar = variable("angle from flange_a to flange_b", unit="rad")
     w_rel: Scalar = variable("der(phi_rel)", unit="rad/s")
@@ -26,4 +26,4 @@ class Compliant(TwoFlanges):
 
     def law(self) -> Any:
         """Yield the equation of tau."""
-        raise NotImplementedError("states its torque tau", "yield self.tau == ...")
+        raise NotImplementedError("yields the equation of the torque tau", "yield self.tau == ...")

@@ -1,4 +1,4 @@
-"""ConstantSpeed: a drive of constant speed."""
+"""ConstantSpeed: drive with constant speed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.rotational.loading_torque import LoadingTorque
 
 
 class ConstantSpeed(LoadingTorque):
-    """Drive of constant speed, whatever the torque."""
+    """Drive with constant speed at any torque."""
 
     w_fixed: Scalar = parameter("speed of the flange", unit="rad/s")
     phi: Scalar = variable("angle of the flange relative to the support", unit="rad", select=PREFER)

@@ -1,4 +1,4 @@
-"""ConstantTorque: a constant torque."""
+"""ConstantTorque: constant torque."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from components.rotational.loading_torque import LoadingTorque
 
 
 class ConstantTorque(LoadingTorque):
-    """Constant torque, whatever the speed."""
+    """Constant torque, independent of the speed."""
 
     tau_constant: Scalar = parameter(
-        "torque on the shaft", unit="N.m", doc="Negative: a load where the shaft turns forwards."
+        "torque on the shaft", unit="N.m", doc="Negative for a load on a shaft turning forwards."
     )
 
     def law(self):

@@ -1,4 +1,4 @@
-"""CutSensor: base of sensors of a cut through a shaft."""
+"""CutSensor: base of sensors inserted into a shaft."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from components.flange import TwoFlanges
 
 
 class CutSensor(TwoFlanges):
-    """Base of sensors that a shaft is cut for; a subclass states what it measures."""
+    """Base of sensors inserted into a shaft; a subclass defines the measured values."""
 
     def equations(self):
         yield self.flange_a.phi == self.flange_b.phi
@@ -17,4 +17,4 @@ class CutSensor(TwoFlanges):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")

@@ -1,4 +1,4 @@
-"""Damper: a linear torsional damper."""
+"""Damper: linear torsional damper."""
 
 from __future__ import annotations
 

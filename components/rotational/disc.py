@@ -1,4 +1,4 @@
-"""Disc: a massless rigid shaft."""
+"""Disc: rigid massless shaft."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from components.flange import TwoFlanges
 
 
 class Disc(TwoFlanges):
-    """Massless rigid shaft, whose flange_b is turned against flange_a by a constant angle."""
+    """Rigid massless shaft with a constant angle between its flanges."""
 
     delta_phi: Scalar = parameter("angle of flange_b relative to flange_a", unit="rad", default=0)
-    phi: Scalar = variable("angle halfway between the flanges", unit="rad")
+    phi: Scalar = variable("mean angle of the flanges", unit="rad")
 
     def equations(self):
         yield self.flange_a.phi == self.phi - self.delta_phi / 2

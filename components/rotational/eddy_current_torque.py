@@ -1,4 +1,4 @@
-"""EddyCurrentTorque: an eddy current brake."""
+"""EddyCurrentTorque: eddy current brake."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from components.thermal.resistance import resistance_ratio
 
 
 class EddyCurrentTorque(HeatLoss, OneFlange):
-    """Eddy current brake, whose torque is greatest at w_nominal.
+    """Eddy current brake with its maximum torque at w_nominal.
 
     Notes
     -----
-    tau = 2 tau_nominal excitation^2 x / (1 + x^2) with x = w / (w_nominal R / R_ref): the speed of the greatest torque grows
-    as the resistance R of the material does with its temperature.
+    tau = 2 tau_nominal excitation^2 x / (1 + x^2) with x = w / (w_nominal R / R_ref): the speed of maximum torque is
+    proportional to the resistance R of the material, which depends on the temperature.
     """
 
-    tau_nominal: Scalar = parameter("greatest torque, which brakes", unit="N.m")
-    w_nominal: Scalar = parameter("speed of the greatest torque at T_ref", unit="rad/s", positive=True)
+    tau_nominal: Scalar = parameter("maximum braking torque", unit="N.m")
+    w_nominal: Scalar = parameter("speed of maximum torque at T_ref", unit="rad/s", positive=True)
     T_ref: Scalar = parameter("reference temperature", unit="K", default=293.15, positive=True)
     alpha20: Scalar = parameter("temperature coefficient of the material at 20 degrees Celsius", unit="1/K", default=0)
-    T: Scalar = parameter("temperature of the material", unit="K", default=293.15, doc="Where it has no heat port.")
-    excitation: Scalar = input("excitation", unit="1", default=1.0, doc="1 gives tau_nominal.")
+    T: Scalar = parameter("temperature of the material", unit="K", default=293.15, doc="Without heat port.")
+    excitation: Scalar = input("relative excitation", unit="1", default=1.0, doc="1 for tau_nominal.")
 
     tau: Scalar = variable("cut torque, flange.tau", unit="N.m")
 
@@ -38,5 +38,5 @@ class EddyCurrentTorque(HeatLoss, OneFlange):
         return self.tau * self.w
 
     def supplied_power(self):
-        """Nothing: it brakes."""
+        """None: the part only brakes."""
         return 0.0

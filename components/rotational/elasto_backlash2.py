@@ -1,4 +1,4 @@
-"""ElastoBacklash2: a torsional spring and damper with backlash, whose torque jumps at contact."""
+"""ElastoBacklash2: torsional spring and damper with backlash and a torque that jumps at contact."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from components.rotational.elasto_backlash import ElastoBacklash
 
 
 class ElastoBacklash2(ElastoBacklash):
-    """Torsional spring and damper that act beyond the backlash; where the damper acts in full the torque jumps at contact."""
+    """Torsional spring and unlimited damper in series with a backlash; the torque jumps at contact."""
 
-    def push(self, depth: Expr, rate: Expr) -> Expr:
-        """Torque at a depth > 0 beyond the backlash, unless it would pull."""
+    def contact_torque(self, depth: Expr, rate: Expr) -> Expr:
+        """Contact torque at the depth > 0 beyond the backlash, not adhesive."""
         torque = self.c * depth + self.d * rate
         return piecewise((torque, torque > 0), 0)

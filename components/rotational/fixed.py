@@ -1,4 +1,4 @@
-"""Fixed: a shaft end that is held."""
+"""Fixed: fixed shaft end."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from components.flange import Flange
 
 
 class Fixed(Component):
-    """Shaft end that is held at a constant angle."""
+    """Shaft end fixed at a constant angle."""
 
     ends = ("flange", "flange")
     phi0: Scalar = parameter("angle of the flange", unit="rad", default=0)
-    flange: Flange = port(Flange, "the held shaft end")
+    flange: Flange = port(Flange, "fixed shaft end")
 
     def equations(self):
         yield self.flange.phi == self.phi0

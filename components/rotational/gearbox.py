@@ -1,4 +1,4 @@
-"""Gearbox: a gear with losses, elasticity and backlash."""
+"""Gearbox: gear with losses, elasticity and backlash."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from components.thermal.heat_port import HeatPort
 
 
 class Gearbox(TwoFlanges):
-    """Gear with losses, and behind it elasticity, damping and backlash."""
+    """Gear with losses, in series with elasticity, damping and backlash at flange_b."""
 
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
-    use_heat_port: bool = structural("whether the losses leave by heat_port", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
+    use_heat_port: bool = structural("whether losses flow out of heat_port", default=False, choices=(True, False))
     ratio: Scalar = parameter("transmission ratio, flange_a.phi / flange_b.phi without elasticity", unit="1")
     loss_table: Any = structural(
-        "losses over the speed of flange_a", default=LossyGear.loss_table.default, doc="As of LossyGear."
+        "losses over the speed of flange_a", default=LossyGear.loss_table.default, doc="As for LossyGear."
     )
     c: Scalar = parameter("spring constant, at flange_b", unit="N.m/rad", minimum=0)
     d: Scalar = parameter("damping constant, at flange_b", unit="N.m.s/rad", default=0, minimum=0)
     b: Scalar = parameter("total backlash, at flange_b", unit="rad", default=0, minimum=0)
-    phi_rel: Scalar = variable("angle from the gear to flange_b, over the elasticity", unit="rad")
+    phi_rel: Scalar = variable("angle of flange_b relative to the gear output", unit="rad")
     w_rel: Scalar = variable("der(phi_rel)", unit="rad/s")
     a_rel: Scalar = variable("der(w_rel)", unit="rad/s2")
 
@@ -34,7 +34,7 @@ class Gearbox(TwoFlanges):
 
     @port
     def heat_port(self) -> HeatPort | None:
-        """Where the losses leave."""
+        """Outlet of the losses."""
         return HeatPort() if self.use_heat_port else None
 
     @part

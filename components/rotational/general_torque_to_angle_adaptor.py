@@ -1,4 +1,4 @@
-"""GeneralTorqueToAngleAdaptor: a signal of the torque acts on a flange, whose motion is given as signals."""
+"""GeneralTorqueToAngleAdaptor: torque signal in, motion signals out."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from components.flange import Flange
 
 
 class GeneralTorqueToAngleAdaptor(Component):
-    """A signal of the torque acts on a flange, whose angle, speed and acceleration are signals."""
+    """Applies a torque signal to a flange and outputs its angle, speed and acceleration."""
 
     ends = ("flange", "flange")
-    use_pder: bool = structural("whether the speed is put out", default=True, choices=(True, False))
-    use_pder2: bool = structural("whether the acceleration is put out", default=True, choices=(True, False))
-    flange: Flange = port(Flange, "shaft end on which the torque acts")
+    use_pder: bool = structural("whether the speed is an output", default=True, choices=(True, False))
+    use_pder2: bool = structural("whether the acceleration is an output", default=True, choices=(True, False))
+    flange: Flange = port(Flange, "shaft end under the torque")
     p: Scalar = output("angle of the flange", unit="rad")
     pder: Scalar = output("speed of the flange, 0 without use_pder", unit="rad/s")
     pder2: Scalar = output("acceleration of the flange, 0 without use_pder or use_pder2", unit="rad/s2")
-    f: Scalar = input("torque that the flange exerts, flange.tau", unit="N.m")
+    f: Scalar = input("torque of the flange, flange.tau", unit="N.m")
 
     def equations(self):
         yield self.p == self.flange.phi

@@ -1,4 +1,4 @@
-"""IdealGear: a gear without inertia or losses."""
+"""IdealGear: gear without inertia or losses."""
 
 from __future__ import annotations
 

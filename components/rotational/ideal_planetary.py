@@ -1,4 +1,4 @@
-"""IdealPlanetary: a planetary gear without inertia or losses."""
+"""IdealPlanetary: planetary gear without inertia or losses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Inertia: a rotor."""
+"""Inertia: rigid rotor."""
 
 from __future__ import annotations
 

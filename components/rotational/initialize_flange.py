@@ -1,4 +1,4 @@
-"""InitializeFlange: gives the start of a shaft end."""
+"""InitializeFlange: initial conditions of a shaft end."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from components.flange import Flange
 
 
 class InitializeFlange(Component):
-    """Gives angle, speed and acceleration of a shaft end at the start; it bears no torque."""
+    """Sets initial angle, speed and acceleration of a shaft end, without torque."""
 
     ends = ("flange", "flange")
-    use_phi_start: bool = structural("whether the angle is given", default=True, choices=(True, False))
-    use_w_start: bool = structural("whether the speed is given", default=True, choices=(True, False))
-    use_a_start: bool = structural("whether the acceleration is given", default=True, choices=(True, False))
-    phi_start: Scalar = input("angle at the start", unit="rad", default=0.0)
-    w_start: Scalar = input("speed at the start", unit="rad/s", default=0.0)
-    a_start: Scalar = input("acceleration at the start", unit="rad/s2", default=0.0)
+    use_phi_start: bool = structural("whether the initial angle is given", default=True, choices=(True, False))
+    use_w_start: bool = structural("whether the initial speed is given", default=True, choices=(True, False))
+    use_a_start: bool = structural("whether the initial acceleration is given", default=True, choices=(True, False))
+    phi_start: Scalar = input("initial angle", unit="rad", default=0.0)
+    w_start: Scalar = input("initial speed", unit="rad/s", default=0.0)
+    a_start: Scalar = input("initial acceleration", unit="rad/s2", default=0.0)
     flange: Flange = port(Flange, "shaft end")
     w_flange: Scalar = variable("speed of the flange", unit="rad/s")
     a_flange: Scalar = variable("acceleration of the flange", unit="rad/s2")

@@ -1,4 +1,4 @@
-"""InverseSpeedDependentTorque: a torque of constant power."""
+"""InverseSpeedDependentTorque: torque at constant power."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from components.rotational.loading_torque import LoadingTorque
 
 
 class InverseSpeedDependentTorque(LoadingTorque):
-    """Torque of the constant power tau_nominal w_nominal, limited below the speed w0."""
+    """Torque at the constant power tau_nominal w_nominal, limited below the speed w0."""
 
     tau_nominal: Scalar = parameter(
-        "torque on the shaft at w_nominal", unit="N.m", doc="Negative: a load where the shaft turns forwards."
+        "torque on the shaft at w_nominal", unit="N.m", doc="Negative for a load on a shaft turning forwards."
     )
     torque_direction: bool = structural(
-        "whether the torque has one sense in both directions of rotation", default=True, choices=(True, False)
+        "whether the torque has the same sign in both directions of rotation", default=True, choices=(True, False)
     )
     w_nominal: Scalar = parameter("nominal speed", unit="rad/s", positive=True)
     w0: Scalar = parameter("speed below which the torque is limited", unit="rad/s", default=0.1, positive=True)
 
     def law(self):
-        """Power over speed; below w0 constant, or proportional to the speed."""
+        """Power over speed; constant or linear in the speed below w0."""
         power, w, w0 = self.tau_nominal * self.w_nominal, self.w, self.w0
         if self.torque_direction:
             yield self.tau == piecewise((power / w, w > w0), (-power / w, w < -w0), power / w0)

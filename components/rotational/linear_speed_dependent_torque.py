@@ -1,4 +1,4 @@
-"""LinearSpeedDependentTorque: a torque proportional to the speed."""
+"""LinearSpeedDependentTorque: torque proportional to the speed."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ class LinearSpeedDependentTorque(LoadingTorque):
     """Torque proportional to the speed."""
 
     tau_nominal: Scalar = parameter(
-        "torque on the shaft at w_nominal", unit="N.m", doc="Negative: a load where the shaft turns forwards."
+        "torque on the shaft at w_nominal", unit="N.m", doc="Negative for a load on a shaft turning forwards."
     )
     torque_direction: bool = structural(
-        "whether the torque has one sense in both directions of rotation", default=True, choices=(True, False)
+        "whether the torque has the same sign in both directions of rotation", default=True, choices=(True, False)
     )
     w_nominal: Scalar = parameter("nominal speed", unit="rad/s", positive=True)
 

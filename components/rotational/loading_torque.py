@@ -1,4 +1,4 @@
-"""LoadingTorque: base of torques that follow a law of speed or time."""
+"""LoadingTorque: base of torques as functions of speed or time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from components.rotational.one_flange import OneFlange
 
 
 class LoadingTorque(OneFlange):
-    """Base of torques at a shaft end; a subclass states what tau is."""
+    """Base of torques on a shaft end; a subclass defines tau."""
 
     tau: Scalar = variable("accelerating torque on the shaft, -flange.tau", unit="N.m")
 
@@ -20,4 +20,4 @@ class LoadingTorque(OneFlange):
 
     def law(self) -> Any:
         """Yield the equation of tau."""
-        raise NotImplementedError("states its torque tau", "yield self.tau == ...")
+        raise NotImplementedError("yields the equation of the torque tau", "yield self.tau == ...")

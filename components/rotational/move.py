@@ -1,16 +1,16 @@
-"""Move: a drive that prescribes angle, speed and acceleration."""
+"""Move: drive with prescribed angle, speed and acceleration."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from acausal import input
-from components.given_motion import GivenMotion
+from components.prescribed_motion import PrescribedMotion
 from components.rotational.one_flange import OneFlange
 
 
-class Move(GivenMotion, OneFlange):
-    """Drive that moves the shaft by signals of its angle, speed and acceleration, of which none is differentiated."""
+class Move(PrescribedMotion, OneFlange):
+    """Drive that prescribes angle, speed and acceleration of the shaft by signals, without differentiating any of them."""
 
     motion_units = ("rad", "rad/s", "rad/s2")
     u: Any = input("angle, speed and acceleration relative to the support", unit=("rad", "rad/s", "rad/s2"), shape=(3,))

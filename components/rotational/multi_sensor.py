@@ -10,7 +10,7 @@ class MultiSensor(CutSensor):
     """Measures the speed of a shaft, the torque in it and the power through it."""
 
     w: Scalar = output("absolute speed of the flanges", unit="rad/s")
-    tau: Scalar = output("cut torque, flange_a.tau: positive where it turns flange_a forwards", unit="N.m")
+    tau: Scalar = output("cut torque, flange_a.tau: positive if it accelerates flange_a forwards", unit="N.m")
     power: Scalar = output("power from flange_a to flange_b", unit="W")
 
     def measure(self):

@@ -7,10 +7,10 @@ from components.flange import Flange
 
 
 class OneFlange(Component):
-    """Base of drives with one shaft end, whose housing stands still or is a flange of its own."""
+    """Base of drives with one shaft end; the housing is fixed or has its own flange."""
 
     ends = ("flange", "flange")
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     flange: Flange = port(Flange, "shaft end")
     phi: Scalar = variable("angle of the flange relative to the support", unit="rad")
     w: Scalar = variable("der(phi)", unit="rad/s")

@@ -1,4 +1,4 @@
-"""OneWayClutch: a freewheel beside a clutch."""
+"""OneWayClutch: freewheel in parallel with a clutch."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ from acausal import Expr, Scalar, discrete, piecewise, quantity, reinit, require
 from components.rotational.compliant import Compliant
 from components.rotational.pressed_shaft import PressedShaft
 
-# Share of tau_max below which the open clutch does not let go, so that rounding of a torque of 0 does not part the shafts (as
-# in Modelica).
+# Smallest breakaway torque over tau_max: round-off of a zero torque must not separate the shafts of an open clutch (value of
+# the Modelica library).
 LEAST = 1e-4
-# Speed in rad/s that rounding of start values makes.
+# Negative initial w_rel in rad/s that counts as 0: round-off of the start values.
 ROUNDING = 1e-9
 
 
 class OneWayClutch(PressedShaft, Compliant):
-    """Freewheel and clutch side by side: flange_b may overrun flange_a, w_rel >= 0, against the friction of the clutch.
+    """Freewheel and clutch in parallel: flange_b may overrun flange_a, w_rel >= 0, against the friction of the clutch.
 
     Notes
     -----
-    While the shafts turn alike it takes any torque that flange_a drives with, tau < 0, and the torque of the clutch against it.
+    At equal speeds it transmits any driving torque of flange_a, tau < 0, and the clutch torque in the opposite direction.
     """
 
-    mode: Scalar = discrete("1 flange_b overruns, 0 both turn alike", unit="1", start=sign(Compliant.w_rel))
-    w_stuck: Scalar = discrete("w_rel when it last stuck or broke away, 0 but for rounding", unit="rad/s")
+    mode: Scalar = discrete("1 flange_b overrunning, 0 locked", unit="1", start=sign(Compliant.w_rel))
+    w_stuck: Scalar = discrete("w_rel at the last transition, 0 up to rounding", unit="rad/s")
 
     def law(self):
-        """Relative acceleration 0 or torque of sliding."""
+        """Zero relative acceleration or sliding torque."""
         sticks = self.mode < 0.5
         yield piecewise((quantity(1.0, "kg.m2") * self.a_rel, sticks), self.tau - self.dragging()) == 0
         overruns = reinit(self.mode, 1), reinit(self.w_stuck, self.w_rel)
@@ -36,12 +36,12 @@ class OneWayClutch(PressedShaft, Compliant):
         yield from super().requirements()
         yield require(
             self.w_rel > quantity(-ROUNDING, "rad/s"),
-            f"{self._path or type(self).__name__} starts with w_rel < 0, which a freewheel does not allow: let flange_b turn at "
-            "least as fast as flange_a, or connect it the other way round",
+            f"{self._path or type(self).__name__} starts with w_rel < 0, which a freewheel does not allow: start flange_b at "
+            "least as fast as flange_a, or exchange the flanges",
         )
 
     def holding(self) -> Expr:
-        """Torque at which the shafts part."""
+        """Breakaway torque."""
         closed, least = super().holding(), LEAST * self.tau_max
         return piecewise((closed, closed > least), least)
 

@@ -1,4 +1,4 @@
-"""Position: a drive that prescribes the angle."""
+"""Position: drive with prescribed angle."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ import numpy as np
 from acausal import PREFER, Scalar, der, input, parameter, structural, variable
 from components.rotational.one_flange import OneFlange
 
-# Bessel filter of the second order, -3 dB at its critical frequency.
+# Coefficients of the second-order Bessel filter with -3 dB at its critical frequency.
 AF, BF = 1.3617, 0.6180
 
 
 class Position(OneFlange):
-    """Drive that moves the shaft as prescribed."""
+    """Drive that prescribes the angle of the shaft."""
 
-    phi_ref: Scalar = input("angle of the flange", unit="rad", doc="Torques jump where its second derivative does.")
+    phi_ref: Scalar = input("angle of the flange", unit="rad", doc="The torque jumps with its second derivative.")
     exact: bool = structural(
         "whether the flange follows phi_ref exactly",
         default=True,
         choices=(True, False),
-        doc="False lets it follow phi_ref through a filter of the second order, begun at rest: for an angle of "
-        "which no derivative is known, such as an input of the whole model, or one that jumps.",
+        doc="False: second-order filter, initially at rest, for an angle without known derivatives, such as an input "
+        "of the model, or with jumps.",
     )
     f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
     phi: Scalar = variable("angle of the flange relative to the support", unit="rad", select=PREFER)

@@ -1,4 +1,4 @@
-"""QuadraticSpeedDependentTorque: a torque that grows with the square of the speed."""
+"""QuadraticSpeedDependentTorque: torque proportional to the square of the speed."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from components.rotational.loading_torque import LoadingTorque
 
 
 class QuadraticSpeedDependentTorque(LoadingTorque):
-    """Torque that grows with the square of the speed, as drag does."""
+    """Torque proportional to the square of the speed, such as drag."""
 
     tau_nominal: Scalar = parameter(
-        "torque on the shaft at w_nominal", unit="N.m", doc="Negative: a load where the shaft turns forwards."
+        "torque on the shaft at w_nominal", unit="N.m", doc="Negative for a load on a shaft turning forwards."
     )
     torque_direction: bool = structural(
-        "whether the torque has one sense in both directions of rotation", default=True, choices=(True, False)
+        "whether the torque has the same sign in both directions of rotation", default=True, choices=(True, False)
     )
     w_nominal: Scalar = parameter("nominal speed", unit="rad/s", positive=True)
 

@@ -9,7 +9,7 @@ from components.flange import TwoFlanges
 
 
 class RelativeSensor(TwoFlanges):
-    """Base of sensors between two shaft ends, which bear no torque; a subclass states what it measures."""
+    """Base of sensors between two shaft ends, which transmit no torque; a subclass defines the measured values."""
 
     phi_rel: Scalar = variable("angle of flange_b relative to flange_a", unit="rad")
 
@@ -20,5 +20,5 @@ class RelativeSensor(TwoFlanges):
         yield from self.measure()
 
     def measure(self) -> Any:
-        """Yield the equations of further measured values."""
+        """Yield the equations of additional measured values."""
         yield from ()

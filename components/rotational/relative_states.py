@@ -1,4 +1,4 @@
-"""RelativeStates: makes a relative motion the state."""
+"""RelativeStates: selects the relative motion as states."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.flange import TwoFlanges
 
 
 class RelativeStates(TwoFlanges):
-    """Makes the relative angle and speed of two shaft ends states; it transmits no torque."""
+    """Selects the relative angle and speed of two shaft ends as states, without torque."""
 
     phi_rel: Scalar = variable("angle of flange_b relative to flange_a", unit="rad", select=ALWAYS)
     w_rel: Scalar = variable("der(phi_rel)", unit="rad/s", select=ALWAYS)

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from acausal import Expr, Scalar, der, discrete, port, quantity, sign, structural, variable
-from components.dry_friction import DryFriction
+from components.dry_friction import MODE, SLIP, STUCK, DryFriction
 from components.flange import Flange, TwoFlanges
 
 
 class ShaftFriction(DryFriction, TwoFlanges):
-    """Base of dry friction between a rigid massless shaft and its housing, which stands still or is a flange of its own."""
+    """Base of dry friction between a rigid massless shaft and its housing, which is fixed or has its own flange."""
 
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     phi: Scalar = variable("angle of the shaft relative to the support", unit="rad")
     w: Scalar = variable("der(phi)", unit="rad/s")
     a: Scalar = variable("der(w)", unit="rad/s2")
-    tau: Scalar = variable("torque of the friction against w", unit="N.m")
-    mode: Scalar = discrete("1 slides forward, 0 sticks, -1 slides backward", unit="1", start=sign(w))
-    w_stuck: Scalar = discrete("w when it last stuck or broke away, 0 but for rounding", unit="rad/s")
-    w_slip: Scalar = discrete("change of w at which it no longer rests where others keep it at rest", unit="rad/s")
+    tau: Scalar = variable("friction torque opposing w", unit="N.m")
+    mode: Scalar = discrete(MODE, unit="1", start=sign(w))
+    w_stuck: Scalar = discrete(STUCK, unit="rad/s")
+    w_slip: Scalar = discrete(SLIP, unit="rad/s")
 
     @port
     def support(self) -> Flange | None:
@@ -40,5 +40,5 @@ class ShaftFriction(DryFriction, TwoFlanges):
         return self.tau * self.w
 
     def sliding_speed(self) -> Expr:
-        """Speed of the shaft, not less than 0 while it slides."""
+        """Magnitude of the shaft speed during sliding."""
         return self.mode * self.w

@@ -1,4 +1,4 @@
-"""SignTorque: a constant torque that changes its sign with the speed."""
+"""SignTorque: constant torque with the sign of the speed."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from components.rotational.loading_torque import LoadingTorque
 
 
 class SignTorque(LoadingTorque):
-    """Constant torque that changes its sign with the speed."""
+    """Constant torque with the sign of the speed, regularised at 0."""
 
     tau_nominal: Scalar = parameter(
-        "torque on the shaft", unit="N.m", doc="Negative: a load in both directions of rotation."
+        "torque on the shaft", unit="N.m", doc="Negative for a load in both directions of rotation."
     )
-    reg: str = structural("how the sign is regularised", default="exp", choices=KINDS)
-    w0: Scalar = parameter("speed below which it is regularised", unit="rad/s", default=0.1, positive=True)
+    reg: str = structural("regularisation of the sign", default="exp", choices=KINDS)
+    w0: Scalar = parameter("speed below which the sign is regularised", unit="rad/s", default=0.1, positive=True)
 
     def law(self):
         """Regularised sign of the speed."""

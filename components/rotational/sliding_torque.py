@@ -1,4 +1,4 @@
-"""SlidingTorque: base of friction with a given torque."""
+"""SlidingTorque: base of dry friction with a specified torque."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class SlidingTorque(HeatLoss):
-    """Base of friction whose torque is given, as a constant or over the speed; a subclass says what slides."""
+    """Base of dry friction with a constant or speed-dependent torque; a subclass defines the sliding speed."""
 
-    sliding_speed: ClassVar[Any]  # method: sliding speed, not less than 0 while it slides
+    sliding_speed: ClassVar[Any]  # method: magnitude of the speed during sliding
     tau_pos: Any = structural(
-        "torque against sliding over the speed",
+        "sliding torque over the speed",
         default=None,
-        doc="A number in N.m, or rows (speed in rad/s, torque in N.m) of ascending speeds from 0 on, between which it is linear; "
+        doc="A number in N.m, or rows (speed in rad/s, torque in N.m) with ascending speeds from 0 on, linearly interpolated; "
         "tau_sliding if not given.",
     )
     tau_sliding: Scalar = parameter(
-        "torque against sliding at the speed 0",
+        "sliding torque at zero speed",
         unit="N.m",
         minimum=0,
         default=lambda s: s.first_torque(),
-        doc="That of tau_pos if not given.",
+        doc="Value of tau_pos if not given.",
     )
     peak: Scalar = parameter(
-        "ratio of the greatest torques of sticking and of sliding at the speed 0", unit="1", default=1, minimum=1
+        "ratio of the largest sticking torque to the sliding torque at zero speed", unit="1", default=1, minimum=1
     )
     tau_static: Scalar = parameter(
-        "greatest torque of sticking",
+        "largest sticking torque",
         unit="N.m",
         minimum=0,
         default=lambda s: s.peak * s.tau_sliding,
@@ -42,24 +42,24 @@ class SlidingTorque(HeatLoss):
         name = self._path or type(self).__name__
         yield require(
             self.tau_sliding <= self.tau_static,
-            f"`tau_sliding` of {name} is more than its `tau_static`: it would stick and slide again without end. Give a larger "
+            f"`tau_sliding` of {name} exceeds `tau_static`: sticking and sliding would alternate endlessly. Give a larger "
             "`tau_static`",
         )
         if self.tau_pos is not None:
-            contradicts = f"`tau_sliding` of {name} is not what its `tau_pos` says at the speed 0. Give one of them"
+            contradicts = f"`tau_sliding` of {name} differs from its `tau_pos` at zero speed; give one of them"
             yield require(self.tau_sliding - self.first_torque(), lambda gap: contradicts if gap else "")
 
     def first_torque(self) -> Expr:
-        """Torque of tau_pos at the speed 0."""
+        """Torque of tau_pos at zero speed."""
         if self.tau_pos is None:
             name = self._path or type(self).__name__
             raise DeclarationError(
-                f"{name} has no torque: give `tau_sliding`, or `tau_pos`, its torque over the speed."
+                f"{name} has no friction torque; give `tau_sliding`, or `tau_pos`, the torque over the speed."
             )
         return self._tau().at_rest()
 
     def holding(self) -> Expr:
-        """Torque of stiction."""
+        """Largest torque of sticking."""
         return self.tau_static
 
     def dragging(self) -> Expr:

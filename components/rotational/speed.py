@@ -1,4 +1,4 @@
-"""Speed: a drive that prescribes the angular velocity."""
+"""Speed: drive with prescribed angular velocity."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from components.rotational.one_flange import OneFlange
 
 
 class Speed(OneFlange):
-    """Drive that turns the shaft at the prescribed speed."""
+    """Drive that prescribes the angular velocity of the shaft."""
 
     w_ref: Scalar = input("angular velocity of the flange", unit="rad/s")
     exact: bool = structural(
         "whether the flange follows w_ref exactly",
         default=True,
         choices=(True, False),
-        doc="False lets it follow w_ref through a filter of the first order: for a speed of which no derivative "
-        "is known, such as an input of the whole model, or one that jumps.",
+        doc="False: first-order filter, for a speed without known derivative, such as an input of the model, or with "
+        "jumps.",
     )
     f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
     phi: Scalar = variable("angle of the flange relative to the support", unit="rad", select=PREFER)

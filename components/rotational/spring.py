@@ -1,4 +1,4 @@
-"""Spring: a linear torsional spring."""
+"""Spring: linear torsional spring."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ class Spring(Compliant):
     """Linear torsional spring."""
 
     c: Scalar = parameter("spring constant", unit="N.m/rad", minimum=0)
-    phi_rel0: Scalar = parameter("unstretched relative angle", unit="rad", default=0, doc="There it bears no torque.")
+    phi_rel0: Scalar = parameter("unstretched relative angle", unit="rad", default=0, doc="The torque is 0 there.")
 
     def law(self):
         """Hooke's law."""

@@ -1,4 +1,4 @@
-"""SpringDamper: a torsional spring and a damper in parallel."""
+"""SpringDamper: torsional spring and damper in parallel."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from components.thermal.heat_loss import HeatLoss
 
 
 class SpringDamper(HeatLoss, Compliant):
-    """Linear torsional spring and linear torsional damper."""
+    """Linear torsional spring and damper in parallel."""
 
     c: Scalar = parameter("spring constant", unit="N.m/rad", minimum=0)
     d: Scalar = parameter("damping constant", unit="N.m.s/rad", minimum=0)
     phi_rel0: Scalar = parameter(
-        "unstretched relative angle", unit="rad", default=0, doc="There the spring bears no torque."
+        "unstretched relative angle", unit="rad", default=0, doc="The spring torque is 0 there."
     )
 
     def law(self):

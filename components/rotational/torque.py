@@ -1,4 +1,4 @@
-"""Torque: a drive that prescribes the torque."""
+"""Torque: drive with prescribed torque."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.rotational.one_flange import OneFlange
 
 
 class Torque(OneFlange):
-    """Drive whose torque acts on the shaft."""
+    """Drive that applies a prescribed torque to the shaft."""
 
     tau: Scalar = input("accelerating torque on the shaft", unit="N.m")
 

@@ -1,4 +1,4 @@
-"""Torque2: a torque between two shaft ends."""
+"""Torque2: torque between two shaft ends."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.flange import TwoFlanges
 
 
 class Torque2(TwoFlanges):
-    """Torque that acts on the shaft at flange_b, and in the opposite sense at flange_a."""
+    """Torque on the shaft at flange_b; the opposite torque acts at flange_a."""
 
     tau: Scalar = input("torque on the shaft at flange_b", unit="N.m")
 

@@ -9,7 +9,7 @@ from components.rotational.cut_sensor import CutSensor
 class TorqueSensor(CutSensor):
     """Measures the torque in a shaft."""
 
-    tau: Scalar = output("cut torque, flange_a.tau: positive where it turns flange_a forwards", unit="N.m")
+    tau: Scalar = output("cut torque, flange_a.tau: positive if it accelerates flange_a forwards", unit="N.m")
 
     def measure(self):
         """Cut torque."""

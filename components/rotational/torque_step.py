@@ -1,4 +1,4 @@
-"""TorqueStep: a torque that steps up."""
+"""TorqueStep: step of a torque."""
 
 from __future__ import annotations
 
@@ -7,11 +7,9 @@ from components.rotational.loading_torque import LoadingTorque
 
 
 class TorqueStep(LoadingTorque):
-    """Torque that jumps at start_time."""
+    """Torque with a step at start_time."""
 
-    step_torque: Scalar = parameter(
-        "height of the step", unit="N.m", doc="Negative: a load where the shaft turns forwards."
-    )
+    step_torque: Scalar = parameter("step height", unit="N.m", doc="Negative for a load on a shaft turning forwards.")
     offset_torque: Scalar = parameter("torque before the step", unit="N.m", default=0)
     start_time: Scalar = parameter("time of the step", unit="s", default=0)
 

@@ -1,4 +1,4 @@
-"""TorqueToAngleAdaptor: a signal of the torque acts on a flange, whose motion is given as signals."""
+"""TorqueToAngleAdaptor: torque signal in, motion signals out."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from components.flange import Flange
 
 
 class TorqueToAngleAdaptor(Component):
-    """A signal of the torque acts on a flange, whose angle, speed and acceleration are signals."""
+    """Applies a torque signal to a flange and outputs its angle, speed and acceleration."""
 
     ends = ("flange", "flange")
-    use_w: bool = structural("whether the speed is put out", default=True, choices=(True, False))
-    use_a: bool = structural("whether the acceleration is put out", default=True, choices=(True, False))
-    flange: Flange = port(Flange, "shaft end on which the torque acts")
+    use_w: bool = structural("whether the speed is an output", default=True, choices=(True, False))
+    use_a: bool = structural("whether the acceleration is an output", default=True, choices=(True, False))
+    flange: Flange = port(Flange, "shaft end under the torque")
     phi: Scalar = output("angle of the flange", unit="rad")
     w: Scalar = output("speed of the flange, 0 without use_w", unit="rad/s")
     a: Scalar = output("acceleration of the flange, 0 without use_a or use_w", unit="rad/s2")
-    tau: Scalar = input("torque that the flange exerts, flange.tau", unit="N.m")
+    tau: Scalar = input("torque of the flange, flange.tau", unit="N.m")
 
     def equations(self):
         yield self.phi == self.flange.phi

@@ -7,9 +7,9 @@ from components.flange import Flange, TwoFlanges
 
 
 class TwoFlangesAndSupport(TwoFlanges):
-    """Base of parts with two shaft ends in a housing, which stands still or is a flange of its own."""
+    """Base of parts with two shaft ends in a housing, which is fixed or has its own flange."""
 
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     phi_a: Scalar = variable("angle of flange_a relative to the support", unit="rad")
     phi_b: Scalar = variable("angle of flange_b relative to the support", unit="rad")
 

@@ -1,4 +1,4 @@
-"""Sensors of frames; what is not read costs nothing, and functions measure the same in methods marked `@observed`."""
+"""Sensors of frames; unread outputs cost nothing. The functions compute the same in methods marked `@observed`."""
 
 from components.sensors.absolute_angles import AbsoluteAngles
 from components.sensors.absolute_angular_velocity import AbsoluteAngularVelocity, absolute_angular_velocity

@@ -1,4 +1,4 @@
-"""AbsoluteAngles: measures the orientation of a frame by three angles."""
+"""AbsoluteAngles: measures the orientation of a frame as three angles."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from components.sensors.angles import HasAngles, axes_angles
 
 
 class AbsoluteAngles(HasAngles):
-    """Measures the angles of frame_a from the world about the axes of a sequence."""
+    """Measures the angles from the world to frame_a about a sequence of axes."""
 
     ends = ("frame_a", "frame_a")
     frame_a: Frame = port(Frame, "measured frame")
-    angles: Vector3 = output("angles from the world to frame_a, each about the turned axis", unit="rad")
+    angles: Vector3 = output("angles from the world to frame_a, each about the rotated axis", unit="rad")
 
     def equations(self):
         yield self.frame_a.f == (0, 0, 0)
@@ -20,5 +20,5 @@ class AbsoluteAngles(HasAngles):
         yield self.angles == axes_angles(self.frame_a.R.T, self.sequence, self.guess_angle1)
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

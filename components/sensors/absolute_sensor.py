@@ -1,4 +1,4 @@
-"""AbsoluteSensor: measures the whole motion of a frame."""
+"""AbsoluteSensor: measures the complete motion of a frame."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from components.sensors.one_frame_sensor import OneFrameSensor, resolved
 
 
 class AbsoluteSensor(HasAngles, OneFrameSensor):
-    """Measures position, velocity, acceleration and orientation of frame_a; what nobody reads costs nothing."""
+    """Measures position, velocity, acceleration and orientation of frame_a; unread outputs cost nothing."""
 
     r: Vector3 = output("position of frame_a, resolved in resolve_in_frame", unit="m")
     v: Vector3 = output("velocity of frame_a, resolved in resolve_in_frame", unit="m/s")
     a: Vector3 = output("acceleration of frame_a, resolved in resolve_in_frame", unit="m/s2")
-    angles: Vector3 = output("angles from the world to frame_a, each about the turned axis", unit="rad")
+    angles: Vector3 = output("angles from the world to frame_a, each about the rotated axis", unit="rad")
     w: Vector3 = output("angular velocity of frame_a, resolved in resolve_in_frame", unit="rad/s")
     z: Vector3 = output("angular acceleration of frame_a, resolved in resolve_in_frame", unit="rad/s2")
 

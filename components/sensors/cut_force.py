@@ -7,7 +7,7 @@ from components.sensors.cut_sensor import CutSensor
 
 
 class CutForce(CutSensor):
-    """Measures the force that acts on what is connected at frame_b, which is the cut force of frame_a."""
+    """Measures the cut force at frame_a, the force on the parts connected to frame_b."""
 
     force: Vector3 = output("cut force, resolved in resolve_in_frame", unit="N")
 

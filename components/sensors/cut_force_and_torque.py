@@ -7,7 +7,7 @@ from components.sensors.cut_sensor import CutSensor
 
 
 class CutForceAndTorque(CutSensor):
-    """Measures force and torque that act on what is connected at frame_b, the cut load of frame_a."""
+    """Measures cut force and torque at frame_a, the load on the parts connected to frame_b."""
 
     force: Vector3 = output("cut force, resolved in resolve_in_frame", unit="N")
     torque: Vector3 = output("cut torque, resolved in resolve_in_frame", unit="N.m")

@@ -13,13 +13,13 @@ from components.sensors.one_frame_sensor import resolved
 
 
 class CutSensor(TwoFrames):
-    """Base of sensors that join two frames rigidly; a subclass states what it measures."""
+    """Base of sensors in a rigid connection of two frames; a subclass defines the measured values."""
 
     resolve_in_frame: str = structural(
-        "where the vectors are resolved", default="frame_a", choices=("world", "frame_a", "frame_resolve")
+        "resolving frame of vectors", default="frame_a", choices=("world", "frame_a", "frame_resolve")
     )
     positive_sign: bool = structural(
-        "whether the load at frame_a is measured, else that at frame_b", default=True, choices=(True, False)
+        "whether the load at frame_a or that at frame_b is measured", default=True, choices=(True, False)
     )
 
     @port
@@ -41,7 +41,7 @@ class CutSensor(TwoFrames):
         yield from self.measure()
 
     def signed(self, load: Any) -> Any:
-        """Load resolved in resolve_in_frame, from that at frame_a, resolved in frame_a."""
+        """Return the load in resolve_in_frame and with the measured sign, from the load at frame_a in frame_a."""
         load = load if self.positive_sign else -load
         if self.resolve_in_frame == "frame_a":
             return load
@@ -49,8 +49,8 @@ class CutSensor(TwoFrames):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

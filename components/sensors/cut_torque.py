@@ -7,7 +7,7 @@ from components.sensors.cut_sensor import CutSensor
 
 
 class CutTorque(CutSensor):
-    """Measures the torque that acts on what is connected at frame_b, which is the cut torque of frame_a."""
+    """Measures the cut torque at frame_a, the torque on the parts connected to frame_b."""
 
     torque: Vector3 = output("cut torque, resolved in resolve_in_frame", unit="N.m")
 

@@ -1,4 +1,4 @@
-"""Distance: measures the distance of two frames."""
+"""Distance: measures the distance between two frames."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from components.frame import TwoFrames
 
 
 def distance(frame_a: Any, frame_b: Any, s_small: Any = 1e-10) -> Any:
-    """Distance of the origins of two frames, regularised below s_small, in m."""
+    """Distance between the origins of two frames, regularised below s_small, in m."""
     r = frame_b.r_0 - frame_a.r_0
     square = dot(r, r)
     return piecewise(
@@ -18,10 +18,10 @@ def distance(frame_a: Any, frame_b: Any, s_small: Any = 1e-10) -> Any:
 
 
 class Distance(TwoFrames):
-    """Measures the distance of the origins of frame_a and frame_b."""
+    """Measures the distance between the origins of frame_a and frame_b."""
 
-    s_small: Scalar = parameter("distance below which it is regularised", unit="m", default=1e-10, positive=True)
-    distance: Scalar = output("distance of the origins", unit="m")
+    s_small: Scalar = parameter("distance of regularisation", unit="m", default=1e-10, positive=True)
+    distance: Scalar = output("distance between the origins", unit="m")
 
     def equations(self):
         for frame in (self.frame_a, self.frame_b):
@@ -30,5 +30,5 @@ class Distance(TwoFrames):
         yield self.distance == distance(self.frame_a, self.frame_b, self.s_small)
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

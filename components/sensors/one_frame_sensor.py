@@ -10,11 +10,11 @@ from components.orientation import resolve2
 
 
 class OneFrameSensor(Component):
-    """Base of sensors of a frame, which bear no load; a subclass states what it measures."""
+    """Base of sensors of a frame, which transmit no load; a subclass defines the measured values."""
 
     ends = ("frame_a", "frame_a")
     resolve_in_frame: str = structural(
-        "where the vectors are resolved", default="frame_a", choices=("frame_a", "world", "frame_resolve")
+        "resolving frame of vectors", default="frame_a", choices=("frame_a", "world", "frame_resolve")
     )
     frame_a: Frame = port(Frame, "measured frame")
 
@@ -36,13 +36,13 @@ class OneFrameSensor(Component):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()
 
 
 def resolved(vector: Any, resolving: Any) -> Any:
-    """Turn a vector resolved in the world into a frame, or leave it where that is None."""
+    """Transform a vector from the world to the frame `resolving`; None is the world."""
     return vector if resolving is None else resolve2(resolving.R, vector)

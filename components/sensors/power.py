@@ -1,4 +1,4 @@
-"""Power: measures the power between two frames."""
+"""Power: measures the power flow between two frames."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from components.sensors.cut_sensor import CutSensor
 
 
 def frame_power(frame: Any) -> Any:
-    """Power that flows into a component by a frame of its own, in W."""
+    """Power into a component through its frame, in W."""
     return dot(frame.f, frame.v) + dot(frame.t, frame.R.w)
 
 

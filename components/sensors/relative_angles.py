@@ -1,4 +1,4 @@
-"""RelativeAngles: measures the orientation of a frame relative to another one by three angles."""
+"""RelativeAngles: measures the relative orientation of two frames as three angles."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from components.sensors.angles import HasAngles, axes_angles
 
 
 class RelativeAngles(HasAngles, TwoFrames):
-    """Measures the angles from frame_a to frame_b about the axes of a sequence."""
+    """Measures the angles from frame_a to frame_b about a sequence of axes."""
 
-    angles: Vector3 = output("angles from frame_a to frame_b, each about the turned axis", unit="rad")
+    angles: Vector3 = output("angles from frame_a to frame_b, each about the rotated axis", unit="rad")
 
     def equations(self):
         for frame in (self.frame_a, self.frame_b):
@@ -19,5 +19,5 @@ class RelativeAngles(HasAngles, TwoFrames):
         yield self.angles == axes_angles(self.frame_b.R.T @ self.frame_a.R.T.T, self.sequence, self.guess_angle1)
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

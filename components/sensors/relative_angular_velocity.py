@@ -1,4 +1,4 @@
-"""RelativeAngularVelocity: measures the angular velocity of a frame relative to another one."""
+"""RelativeAngularVelocity: measures the relative angular velocity of two frames."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def relative_angular_velocity(frame_a: Any, frame_b: Any, resolving: Any = None)
 class RelativeAngularVelocity(TwoFrameSensor):
     """Measures the angular velocity of frame_b relative to frame_a."""
 
-    w_rel: Vector3 = output("angular velocity of frame_b from frame_a, resolved in resolve_in_frame", unit="rad/s")
+    w_rel: Vector3 = output("relative angular velocity of frame_b, resolved in resolve_in_frame", unit="rad/s")
 
     def measure(self):
         """Relative angular velocity."""

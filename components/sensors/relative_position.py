@@ -1,4 +1,4 @@
-"""RelativePosition: measures the position of a frame from another one."""
+"""RelativePosition: measures the relative position of two frames."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from components.sensors.two_frame_sensor import TwoFrameSensor
 
 
 def relative_position(frame_a: Any, frame_b: Any, resolving: Any = None) -> Any:
-    """Position of frame_b from frame_a, resolved in the frame `resolving` or in the world, in m."""
+    """Position of frame_b relative to frame_a, resolved in the frame `resolving` or in the world, in m."""
     return resolved(frame_b.r_0 - frame_a.r_0, resolving)
 
 
 class RelativePosition(TwoFrameSensor):
-    """Measures the position of the origin of frame_b from that of frame_a."""
+    """Measures the position of the origin of frame_b relative to that of frame_a."""
 
-    r_rel: Vector3 = output("position of frame_b from frame_a, resolved in resolve_in_frame", unit="m")
+    r_rel: Vector3 = output("relative position of frame_b, resolved in resolve_in_frame", unit="m")
 
     def measure(self):
         """Relative position."""

@@ -1,4 +1,4 @@
-"""RelativeSensor: measures the whole motion of a frame relative to another one."""
+"""RelativeSensor: measures the complete relative motion of two frames."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from components.sensors.two_frame_sensor import TwoFrameSensor
 
 
 class RelativeSensor(HasAngles, TwoFrameSensor):
-    """Measures the motion of frame_b relative to frame_a; what nobody reads costs nothing.
+    """Measures the motion of frame_b relative to frame_a; unread outputs cost nothing.
 
     Notes
     -----
-    v_rel, a_rel and z_rel are the derivatives of r_rel, v_rel and w_rel as seen from resolve_in_frame.
+    v_rel, a_rel and z_rel are the derivatives of r_rel, v_rel and w_rel with respect to resolve_in_frame.
     """
 
-    r_rel: Vector3 = output("position of frame_b from frame_a, resolved in resolve_in_frame", unit="m")
+    r_rel: Vector3 = output("relative position of frame_b, resolved in resolve_in_frame", unit="m")
     v_rel: Vector3 = output("der(r_rel)", unit="m/s")
     a_rel: Vector3 = output("der(v_rel)", unit="m/s2")
-    angles: Vector3 = output("angles from frame_a to frame_b, each about the turned axis", unit="rad")
-    w_rel: Vector3 = output("angular velocity of frame_b from frame_a, resolved in resolve_in_frame", unit="rad/s")
+    angles: Vector3 = output("angles from frame_a to frame_b, each about the rotated axis", unit="rad")
+    w_rel: Vector3 = output("relative angular velocity of frame_b, resolved in resolve_in_frame", unit="rad/s")
     z_rel: Vector3 = output("der(w_rel)", unit="rad/s2")
 
     def measure(self):

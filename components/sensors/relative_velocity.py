@@ -1,4 +1,4 @@
-"""RelativeVelocity: measures the velocity of a frame relative to another one."""
+"""RelativeVelocity: measures the relative velocity of two frames."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from components.sensors.two_frame_sensor import TwoFrameSensor
 
 
 def relative_velocity(frame_a: Any, frame_b: Any, resolving: Any = None) -> Any:
-    """Velocity of frame_b as seen from frame_a, which may turn, resolved in the frame `resolving` or in the world, in m/s."""
+    """Velocity of frame_b relative to the rotating frame_a, resolved in the frame `resolving` or in the world, in m/s."""
     a, b = frame_a, frame_b
     carried = a.v + cross(a.R.w, resolve2(a.R, b.r_0 - a.r_0))
     return resolved(resolve1(b.R, b.v) - resolve1(a.R, carried), resolving)
 
 
 class RelativeVelocity(TwoFrameSensor):
-    """Measures the velocity of the origin of frame_b as seen from frame_a."""
+    """Measures the velocity of the origin of frame_b relative to frame_a."""
 
-    v_rel: Vector3 = output("velocity of frame_b seen from frame_a, resolved in resolve_in_frame", unit="m/s")
+    v_rel: Vector3 = output("velocity of frame_b relative to frame_a, resolved in resolve_in_frame", unit="m/s")
 
     def measure(self):
         """Relative velocity."""

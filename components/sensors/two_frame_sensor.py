@@ -9,10 +9,10 @@ from components.frame import Frame, TwoFrames
 
 
 class TwoFrameSensor(TwoFrames):
-    """Base of sensors between two frames, which bear no load; a subclass states what it measures."""
+    """Base of sensors between two frames, which transmit no load; a subclass defines the measured values."""
 
     resolve_in_frame: str = structural(
-        "where the vectors are resolved", default="frame_a", choices=("frame_a", "frame_b", "world", "frame_resolve")
+        "resolving frame of vectors", default="frame_a", choices=("frame_a", "frame_b", "world", "frame_resolve")
     )
 
     @port
@@ -34,8 +34,8 @@ class TwoFrameSensor(TwoFrames):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")
 
     def shapes(self):
-        """Nothing: it has no size."""
+        """No shape: the sensor has no size."""
         yield from ()

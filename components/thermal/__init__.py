@@ -1,4 +1,4 @@
-"""Heat: capacitors, conductors and temperatures, as much as the losses of machines need."""
+"""Heat transfer for the losses of machines: capacitors, conductors and temperatures."""
 
 from components.thermal.convection import Convection
 from components.thermal.fixed_temperature import FixedTemperature

@@ -1,4 +1,4 @@
-"""Convection: heat from a solid to a fluid."""
+"""Convection: heat transfer from a solid to a fluid."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from components.thermal.heat_port import HeatPort
 
 
 class Convection(Component):
-    """Linear convection of heat."""
+    """Linear convective heat transfer."""
 
     ends = ("solid", "fluid")
     Gc: Scalar = input("convective thermal conductance", unit="W/K")
     solid: HeatPort = port(HeatPort, "surface of the solid")
     fluid: HeatPort = port(HeatPort, "fluid")
     dT: Scalar = variable("solid.T - fluid.T", unit="K")
-    Q_flow: Scalar = variable("flow of heat from the solid to the fluid", unit="W")
+    Q_flow: Scalar = variable("heat flow from the solid to the fluid", unit="W")
 
     def equations(self):
         yield self.dT == self.solid.T - self.fluid.T

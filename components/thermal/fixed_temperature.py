@@ -1,4 +1,4 @@
-"""FixedTemperature: a constant temperature."""
+"""FixedTemperature: constant temperature."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from components.thermal.heat_port import HeatPort
 
 
 class FixedTemperature(Component):
-    """Surroundings of a constant temperature."""
+    """Environment at a constant temperature."""
 
     ends = ("port", "port")
     T: Scalar = parameter("temperature", unit="K")
-    port: HeatPort = port(HeatPort, "where heat is exchanged")
+    port: HeatPort = port(HeatPort, "heat exchange")
 
     def equations(self):
         yield self.port.T == self.T
 
     def supplied_power(self):
-        """Heat that the surroundings give."""
+        """Heat flow from the environment."""
         return -self.port.Q_flow

@@ -1,4 +1,4 @@
-"""HeatCapacitor: stores heat."""
+"""HeatCapacitor: heat storage."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from components.thermal.heat_port import HeatPort
 
 
 class HeatCapacitor(Component):
-    """Body of one temperature that stores heat."""
+    """Lumped heat capacity of uniform temperature."""
 
     ends = ("port", "port")
     C: Scalar = parameter("heat capacity", unit="J/K", minimum=0)
     T: Scalar = variable("temperature", unit="K", start=293.15, select=PREFER)
     der_T: Scalar = variable("der(T)", unit="K/s")
-    port: HeatPort = port(HeatPort, "where heat enters")
+    port: HeatPort = port(HeatPort, "heat inlet")
 
     def equations(self):
         yield self.T == self.port.T
@@ -21,5 +21,5 @@ class HeatCapacitor(Component):
         yield self.C * self.der_T == self.port.Q_flow
 
     def stored_energy(self):
-        """Heat, from 0 K on."""
+        """Heat, relative to 0 K."""
         return self.C * self.T

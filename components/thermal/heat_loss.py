@@ -1,4 +1,4 @@
-"""HeatLoss: base of parts that turn power into heat."""
+"""HeatLoss: base of parts that dissipate power as heat."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from components.thermal.heat_port import HeatPort
 
 
 class HeatLoss(Component):
-    """Base of parts whose losses may heat other parts; a subclass states its loss().
+    """Base of parts whose losses may heat other parts; a subclass defines loss().
 
     Notes
     -----
-    Without a heat port the loss counts as dissipated; with one it flows on as heat.
+    Without a heat port the loss is dissipated power; with a heat port it is a heat flow.
     """
 
-    use_heat_port: bool = structural("whether the losses leave by heat_port", default=False, choices=(True, False))
-    loss_power: Scalar = variable("power that turns into heat", unit="W")
+    use_heat_port: bool = structural("whether losses flow out of heat_port", default=False, choices=(True, False))
+    loss_power: Scalar = variable("power dissipated as heat", unit="W")
 
     @port
     def heat_port(self) -> HeatPort | None:
-        """Where the losses leave."""
+        """Outlet of the losses."""
         return HeatPort() if self.use_heat_port else None
 
     def equations(self):
@@ -31,9 +31,9 @@ class HeatLoss(Component):
             yield self.heat_port.Q_flow == -self.loss_power
 
     def dissipated_power(self):
-        """Power of the loss, where no heat port takes it."""
+        """Power of the loss without a heat port, else 0."""
         return 0.0 if self.use_heat_port else self.loss()
 
     def loss(self) -> Any:
-        """Power that turns into heat, in W."""
-        raise NotImplementedError("returns the power that turns into heat", "return ...")
+        """Power dissipated as heat, in W."""
+        raise NotImplementedError("returns the power dissipated as heat", "return ...")

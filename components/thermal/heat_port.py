@@ -1,4 +1,4 @@
-"""HeatPort: the connector of heat."""
+"""HeatPort: connector of heat transfer."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from acausal import Connector, Scalar, flow, variable
 
 
 class HeatPort(Connector):
-    """Place where heat is exchanged."""
+    """Point of heat exchange."""
 
     domain: ClassVar[str] = "thermal"
     T: Scalar = variable("absolute temperature", unit="K", start=293.15)
-    Q_flow: Scalar = flow("flow of heat into the component", unit="W")
+    Q_flow: Scalar = flow("heat flow into the component", unit="W")

@@ -1,4 +1,4 @@
-"""PrescribedTemperature: a temperature that varies."""
+"""PrescribedTemperature: variable temperature."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from components.thermal.heat_port import HeatPort
 
 
 class PrescribedTemperature(Component):
-    """Surroundings of a given temperature."""
+    """Environment at a prescribed temperature."""
 
     ends = ("port", "port")
     T: Scalar = input("temperature", unit="K")
-    port: HeatPort = port(HeatPort, "where heat is exchanged")
+    port: HeatPort = port(HeatPort, "heat exchange")
 
     def equations(self):
         yield self.port.T == self.T
 
     def supplied_power(self):
-        """Heat that the surroundings give."""
+        """Heat flow from the environment."""
         return -self.port.Q_flow

@@ -1,4 +1,4 @@
-"""Resistance over temperature."""
+"""Temperature dependence of an electrical resistance."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def resistance_ratio(T: Any, T_ref: Any, alpha20: Any) -> Any:
-    """Resistance at T over that at T_ref, both in K: 1 + alpha (T - T_ref), alpha = alpha20 / (1 + alpha20 (T_ref - 293.15 K)).
+    """Ratio of resistances at T and T_ref: 1 + alpha (T - T_ref), alpha = alpha20 / (1 + alpha20 (T_ref - 293.15 K)).
 
     Parameters
     ----------

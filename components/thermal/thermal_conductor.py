@@ -1,4 +1,4 @@
-"""ThermalConductor: conducts heat."""
+"""ThermalConductor: heat conduction."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from components.thermal.heat_port import HeatPort
 
 
 class ThermalConductor(Component):
-    """Linear conduction of heat, which stores nothing."""
+    """Linear heat conduction without storage."""
 
     ends = ("port_a", "port_b")
     G: Scalar = parameter("thermal conductance", unit="W/K", minimum=0)
     port_a: HeatPort = port(HeatPort, "first end")
     port_b: HeatPort = port(HeatPort, "second end")
     dT: Scalar = variable("port_a.T - port_b.T", unit="K")
-    Q_flow: Scalar = variable("flow of heat from port_a to port_b", unit="W")
+    Q_flow: Scalar = variable("heat flow from port_a to port_b", unit="W")
 
     def equations(self):
         yield self.dT == self.port_a.T - self.port_b.T

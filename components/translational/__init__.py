@@ -1,4 +1,4 @@
-"""Translation: masses, springs, dampers, drives and sensors in one dimension."""
+"""One-dimensional translation: masses, springs, dampers, drives and sensors."""
 
 from components.translational.absolute_sensor import AbsoluteSensor
 from components.translational.acc_sensor import AccSensor

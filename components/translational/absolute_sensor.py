@@ -9,7 +9,7 @@ from components.translational.flange import TranslationalFlange
 
 
 class AbsoluteSensor(Component):
-    """Base of sensors of a rod end, which bear no force; a subclass states what it measures."""
+    """Base of sensors at one rod end, which transmit no force; a subclass defines the measured values."""
 
     ends = ("flange", "flange")
     flange: TranslationalFlange = port(TranslationalFlange, "measured rod end")
@@ -20,4 +20,4 @@ class AbsoluteSensor(Component):
 
     def measure(self) -> Any:
         """Yield the equations of the measured values."""
-        raise NotImplementedError("states what it measures", "yield self.y == ...")
+        raise NotImplementedError("yields the equations of the measured values", "yield self.y == ...")

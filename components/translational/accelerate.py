@@ -1,4 +1,4 @@
-"""Accelerate: a drive that prescribes the acceleration."""
+"""Accelerate: drive with prescribed acceleration."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.translational.one_flange import OneFlange
 
 
 class Accelerate(OneFlange):
-    """Drive that accelerates the rod as prescribed, from s and v at the start."""
+    """Drive that prescribes the acceleration of the rod, starting from s and v."""
 
     a_ref: Scalar = input("acceleration of the flange", unit="m/s2")
     s: Scalar = variable("position of the flange relative to the support", unit="m", select=PREFER)

@@ -1,4 +1,4 @@
-"""Brake: holds a rod by friction."""
+"""Brake: friction brake of a rod."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from components.translational.rod_friction import RodFriction
 
 
 class Brake(PressedFriction, RodFriction):
-    """Friction brake of a rigid massless rod: slips until the rod stands still, then holds it up to its greatest force."""
+    """Friction brake of a rigid massless rod: slips until standstill, then holds up to the static friction force."""
 
     speed_unit = "m/s"
     cgeo: Scalar = parameter(
-        "force over the friction force of one face", unit="1", default=1, minimum=0, doc="Number of friction faces."
+        "friction force over that of one face", unit="1", default=1, minimum=0, doc="Number of friction faces."
     )

@@ -9,7 +9,7 @@ from components.translational.flange import TwoFlanges
 
 
 class Compliant(TwoFlanges):
-    """Base of forces that depend on the relative position; a subclass states what f is."""
+    """Base of forces that depend on the relative position; a subclass defines f."""
 
     s_rel: Scalar = variable("position of flange_b relative to flange_a", unit="m")
     v_rel: Scalar = variable("der(s_rel)", unit="m/s")
@@ -24,4 +24,4 @@ class Compliant(TwoFlanges):
 
     def law(self) -> Any:
         """Yield the equation of f."""
-        raise NotImplementedError("states its force f", "yield self.f == ...")
+        raise NotImplementedError("yields the equation of the force f", "yield self.f == ...")

@@ -1,4 +1,4 @@
-"""ConstantForce: a constant force."""
+"""ConstantForce: constant force."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from components.translational.loading_force import LoadingForce
 
 
 class ConstantForce(LoadingForce):
-    """Constant force, whatever the speed."""
+    """Constant force, independent of the speed."""
 
-    f_constant: Scalar = parameter("force on the rod", unit="N", doc="Negative: a load where the rod moves forwards.")
+    f_constant: Scalar = parameter("force on the rod", unit="N", doc="Negative for a load on a rod moving forwards.")
 
     def law(self):
         """Constant force."""

@@ -1,4 +1,4 @@
-"""ConstantSpeed: a drive of constant speed."""
+"""ConstantSpeed: drive with constant speed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.translational.loading_force import LoadingForce
 
 
 class ConstantSpeed(LoadingForce):
-    """Drive of constant speed, whatever the force."""
+    """Drive with constant speed at any force."""
 
     v_fixed: Scalar = parameter("speed of the flange", unit="m/s")
     s: Scalar = variable("position of the flange relative to the support", unit="m", select=PREFER)

@@ -1,4 +1,4 @@
-"""Damper: a linear damper."""
+"""Damper: linear damper."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""EddyCurrentForce: an eddy current brake."""
+"""EddyCurrentForce: eddy current brake."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from components.translational.loading_force import LoadingForce
 
 
 class EddyCurrentForce(HeatLoss, LoadingForce):
-    """Eddy current brake, whose force is greatest at v_nominal.
+    """Eddy current brake with its maximum force at v_nominal.
 
     Notes
     -----
-    f = 2 f_nominal excitation^2 x / (1 + x^2) with x = v / (v_nominal R / R_ref): the speed of the greatest force grows as the
-    resistance R of the material does with its temperature.
+    f = 2 f_nominal excitation^2 x / (1 + x^2) with x = v / (v_nominal R / R_ref): the speed of maximum force is proportional
+    to the resistance R of the material, which depends on the temperature.
     """
 
-    f_nominal: Scalar = parameter("greatest force, which brakes", unit="N")
-    v_nominal: Scalar = parameter("speed of the greatest force at T_ref", unit="m/s", positive=True)
+    f_nominal: Scalar = parameter("maximum braking force", unit="N")
+    v_nominal: Scalar = parameter("speed of maximum force at T_ref", unit="m/s", positive=True)
     T_ref: Scalar = parameter("reference temperature", unit="K", default=293.15, positive=True)
     alpha20: Scalar = parameter("temperature coefficient of the material at 20 degrees Celsius", unit="1/K", default=0)
-    T: Scalar = parameter("temperature of the material", unit="K", default=293.15, doc="Where it has no heat port.")
-    excitation: Scalar = input("excitation", unit="1", default=1.0, doc="1 gives f_nominal.")
+    T: Scalar = parameter("temperature of the material", unit="K", default=293.15, doc="Without heat port.")
+    excitation: Scalar = input("relative excitation", unit="1", default=1.0, doc="1 for f_nominal.")
 
     def law(self):
-        """Force over speed, with a maximum."""
+        """Braking force over the speed."""
         T = self.heat_port.T if self.use_heat_port else self.T
         x = self.v / (self.v_nominal * resistance_ratio(T, self.T_ref, self.alpha20))
         yield self.f == 2 * self.f_nominal * self.excitation**2 * x / (1 + x**2)
@@ -35,5 +35,5 @@ class EddyCurrentForce(HeatLoss, LoadingForce):
         return self.f * self.v
 
     def supplied_power(self):
-        """Nothing: it brakes."""
+        """None: the part only brakes."""
         return 0.0

@@ -1,4 +1,4 @@
-"""ElastoGap: a spring and a damper that only push."""
+"""ElastoGap: compliant stop of a spring and a damper."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from components.translational.compliant import Compliant
 
 
 class ElastoGap(HeatLoss, Compliant):
-    """Spring and damper that act while s_rel < s_rel0, as a stop or a contact does.
+    """Spring and damper of a compliant stop, in contact for s_rel < s_rel0.
 
     Notes
     -----
-    The force of the damper is limited to that of the spring, so that the sum never pulls.
+    The damper force is limited to the spring force, so that the stop is never adhesive.
     """
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
     d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
-    s_rel0: Scalar = parameter("unstretched length", unit="m", default=0, doc="Beyond it nothing acts.")
+    s_rel0: Scalar = parameter("unstretched length", unit="m", default=0, doc="No force beyond it.")
     s_ref: Scalar = parameter("compression at which the force is f_ref", unit="m", default=1, positive=True)
     f_ref: Scalar = parameter(
         "force at the compression s_ref",
@@ -31,11 +31,11 @@ class ElastoGap(HeatLoss, Compliant):
         unit="1",
         default=1,
         minimum=1,
-        doc="The spring's force is -f_ref ((s_rel0 - s_rel) / s_ref)^n.",
+        doc="The spring force is -f_ref ((s_rel0 - s_rel) / s_ref)^n.",
     )
 
     def law(self):
-        """Spring and limited damper in contact, else nothing."""
+        """Spring and limited damper in contact, else 0."""
         yield self.f == piecewise((-self._spring() + self._damping(), self._compression() > 0), 0)
 
     def stored_energy(self):

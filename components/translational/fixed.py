@@ -1,4 +1,4 @@
-"""Fixed: a rod end that is held."""
+"""Fixed: fixed rod end."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from components.translational.flange import TranslationalFlange
 
 
 class Fixed(Component):
-    """Rod end that is held at a constant position."""
+    """Rod end fixed at a constant position."""
 
     ends = ("flange", "flange")
     s0: Scalar = parameter("position of the flange", unit="m", default=0)
-    flange: TranslationalFlange = port(TranslationalFlange, "the held rod end")
+    flange: TranslationalFlange = port(TranslationalFlange, "fixed rod end")
 
     def equations(self):
         yield self.flange.s == self.s0

@@ -1,4 +1,4 @@
-"""TranslationalFlange: the connector of one-dimensional translation."""
+"""TranslationalFlange: connector of one-dimensional translation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from acausal import Component, Connector, Scalar, flow, port, variable
 
 
 class TranslationalFlange(Connector):
-    """End of a rod in one-dimensional translation."""
+    """Rod end in one-dimensional translation."""
 
     domain: ClassVar[str] = "translational"
     s: Scalar = variable("absolute position", unit="m")

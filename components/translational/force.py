@@ -1,4 +1,4 @@
-"""Force: a drive that prescribes the force."""
+"""Force: drive with prescribed force."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.translational.one_flange import OneFlange
 
 
 class Force(OneFlange):
-    """Drive whose force acts on the rod."""
+    """Drive that applies a prescribed force to the rod."""
 
     f: Scalar = input("accelerating force on the rod", unit="N")
 

@@ -1,4 +1,4 @@
-"""Force2: a force between two rod ends."""
+"""Force2: force between two rod ends."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.translational.flange import TwoFlanges
 
 
 class Force2(TwoFlanges):
-    """Force that acts on the rod at flange_b, and in the opposite sense at flange_a."""
+    """Force on the rod at flange_b; the opposite force acts at flange_a."""
 
     f: Scalar = input("force on the rod at flange_b", unit="N")
 

@@ -9,7 +9,7 @@ from components.translational.cut_sensor import CutSensor
 class ForceSensor(CutSensor):
     """Measures the force in a rod."""
 
-    f: Scalar = output("cut force, flange_a.f: positive where flange_a is pushed towards flange_b", unit="N")
+    f: Scalar = output("cut force, flange_a.f: positive in compression", unit="N")
 
     def measure(self):
         """Cut force."""

@@ -1,4 +1,4 @@
-"""ForceStep: a force that steps up."""
+"""ForceStep: step of a force."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from components.translational.loading_force import LoadingForce
 
 
 class ForceStep(LoadingForce):
-    """Force that jumps at start_time."""
+    """Force with a step at start_time."""
 
-    step_force: Scalar = parameter("height of the step", unit="N", doc="Negative: a load where the rod moves forwards.")
+    step_force: Scalar = parameter("step height", unit="N", doc="Negative for a load on a rod moving forwards.")
     offset_force: Scalar = parameter("force before the step", unit="N", default=0)
     start_time: Scalar = parameter("time of the step", unit="s", default=0)
 

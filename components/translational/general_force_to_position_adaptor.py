@@ -1,4 +1,4 @@
-"""GeneralForceToPositionAdaptor: a signal of the force acts on a flange, whose motion is given as signals."""
+"""GeneralForceToPositionAdaptor: force signal in, motion signals out."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from components.translational.flange import TranslationalFlange
 
 
 class GeneralForceToPositionAdaptor(Component):
-    """A signal of the force acts on a flange, whose position, speed and acceleration are signals."""
+    """Applies a force signal to a flange and outputs its position, speed and acceleration."""
 
     ends = ("flange", "flange")
-    use_pder: bool = structural("whether the speed is put out", default=True, choices=(True, False))
-    use_pder2: bool = structural("whether the acceleration is put out", default=True, choices=(True, False))
-    flange: TranslationalFlange = port(TranslationalFlange, "rod end on which the force acts")
+    use_pder: bool = structural("whether the speed is an output", default=True, choices=(True, False))
+    use_pder2: bool = structural("whether the acceleration is an output", default=True, choices=(True, False))
+    flange: TranslationalFlange = port(TranslationalFlange, "rod end under the force")
     p: Scalar = output("position of the flange", unit="m")
     pder: Scalar = output("speed of the flange, 0 without use_pder", unit="m/s")
     pder2: Scalar = output("acceleration of the flange, 0 without use_pder or use_pder2", unit="m/s2")
-    f: Scalar = input("force that the flange exerts, flange.f", unit="N")
+    f: Scalar = input("force of the flange, flange.f", unit="N")
 
     def equations(self):
         yield self.p == self.flange.s

@@ -1,4 +1,4 @@
-"""IdealGearR2T: a gear from rotation to translation."""
+"""IdealGearR2T: gear from rotation to translation."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from components.translational.rotational_to_translational import RotationalToTra
 
 
 class IdealGearR2T(RotationalToTranslational):
-    """Gear from rotation to translation without inertia or losses, as a rack and pinion or a spindle."""
+    """Gear from rotation to translation without inertia or losses, such as a rack and pinion or a spindle."""
 
     ratio: Scalar = parameter("transmission ratio, phi / s", unit="rad/m")
 
-    def turns(self) -> Expr:
+    def transmission_ratio(self) -> Expr:
         """Return the transmission ratio."""
         return self.ratio

@@ -1,4 +1,4 @@
-"""IdealRollingWheel: a wheel that rolls without slip."""
+"""IdealRollingWheel: wheel rolling without slip."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from components.translational.rotational_to_translational import RotationalToTra
 
 
 class IdealRollingWheel(RotationalToTranslational):
-    """Wheel without inertia that rolls on a rod or a road without slip."""
+    """Massless wheel rolling on a rod or a road without slip."""
 
     radius: Scalar = parameter("radius", unit="m", positive=True)
 
-    def turns(self) -> Expr:
-        """Angle over way."""
+    def transmission_ratio(self) -> Expr:
+        """Return the transmission ratio."""
         return 1 / self.radius

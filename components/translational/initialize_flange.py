@@ -1,4 +1,4 @@
-"""InitializeFlange: gives the start of a rod end."""
+"""InitializeFlange: initial conditions of a rod end."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from components.translational.flange import TranslationalFlange
 
 
 class InitializeFlange(Component):
-    """Gives position, speed and acceleration of a rod end at the start; it bears no force."""
+    """Sets initial position, speed and acceleration of a rod end, without force."""
 
     ends = ("flange", "flange")
-    use_s_start: bool = structural("whether the position is given", default=True, choices=(True, False))
-    use_v_start: bool = structural("whether the speed is given", default=True, choices=(True, False))
-    use_a_start: bool = structural("whether the acceleration is given", default=True, choices=(True, False))
-    s_start: Scalar = input("position at the start", unit="m", default=0.0)
-    v_start: Scalar = input("speed at the start", unit="m/s", default=0.0)
-    a_start: Scalar = input("acceleration at the start", unit="m/s2", default=0.0)
+    use_s_start: bool = structural("whether the initial position is given", default=True, choices=(True, False))
+    use_v_start: bool = structural("whether the initial speed is given", default=True, choices=(True, False))
+    use_a_start: bool = structural("whether the initial acceleration is given", default=True, choices=(True, False))
+    s_start: Scalar = input("initial position", unit="m", default=0.0)
+    v_start: Scalar = input("initial speed", unit="m/s", default=0.0)
+    a_start: Scalar = input("initial acceleration", unit="m/s2", default=0.0)
     flange: TranslationalFlange = port(TranslationalFlange, "rod end")
     v_flange: Scalar = variable("speed of the flange", unit="m/s")
     a_flange: Scalar = variable("acceleration of the flange", unit="m/s2")

@@ -1,4 +1,4 @@
-"""InverseSpeedDependentForce: a force of constant power."""
+"""InverseSpeedDependentForce: force at constant power."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from components.translational.loading_force import LoadingForce
 
 
 class InverseSpeedDependentForce(LoadingForce):
-    """Force of the constant power f_nominal v_nominal, limited below the speed v0."""
+    """Force at the constant power f_nominal v_nominal, limited below the speed v0."""
 
     f_nominal: Scalar = parameter(
-        "force on the rod at v_nominal", unit="N", doc="Negative: a load where the rod moves forwards."
+        "force on the rod at v_nominal", unit="N", doc="Negative for a load on a rod moving forwards."
     )
     force_direction: bool = structural(
-        "whether the force has one sense in both directions of motion", default=True, choices=(True, False)
+        "whether the force has the same sign in both directions of motion", default=True, choices=(True, False)
     )
     v_nominal: Scalar = parameter("nominal speed", unit="m/s", positive=True)
     v0: Scalar = parameter("speed below which the force is limited", unit="m/s", default=0.1, positive=True)
 
     def law(self):
-        """Power over speed; below v0 constant, or proportional to the speed."""
+        """Power over speed; constant or linear in the speed below v0."""
         power, v, v0 = self.f_nominal * self.v_nominal, self.v, self.v0
         if self.force_direction:
             yield self.f == piecewise((-power / v, v > v0), (power / v, v < -v0), -power / v0)

@@ -1,4 +1,4 @@
-"""LinearSpeedDependentForce: a force proportional to the speed."""
+"""LinearSpeedDependentForce: force proportional to the speed."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ class LinearSpeedDependentForce(LoadingForce):
     """Force proportional to the speed."""
 
     f_nominal: Scalar = parameter(
-        "force on the rod at v_nominal", unit="N", doc="Negative: a load where the rod moves forwards."
+        "force on the rod at v_nominal", unit="N", doc="Negative for a load on a rod moving forwards."
     )
     force_direction: bool = structural(
-        "whether the force has one sense in both directions of motion", default=True, choices=(True, False)
+        "whether the force has the same sign in both directions of motion", default=True, choices=(True, False)
     )
     v_nominal: Scalar = parameter("nominal speed", unit="m/s", positive=True)
 

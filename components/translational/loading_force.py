@@ -1,4 +1,4 @@
-"""LoadingForce: base of forces that follow a law of speed or time."""
+"""LoadingForce: base of forces as functions of speed or time."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from components.translational.one_flange import OneFlange
 
 
 class LoadingForce(OneFlange):
-    """Base of forces at a rod end; a subclass states what f is."""
+    """Base of forces on a rod end; a subclass defines f."""
 
-    f: Scalar = variable("cut force, flange.f: positive against the motion forwards", unit="N")
+    f: Scalar = variable("cut force, flange.f: positive against forward motion", unit="N")
 
     def equations(self):
         yield from super().equations()
@@ -20,4 +20,4 @@ class LoadingForce(OneFlange):
 
     def law(self) -> Any:
         """Yield the equation of f."""
-        raise NotImplementedError("states its force f", "yield self.f == ...")
+        raise NotImplementedError("yields the equation of the force f", "yield self.f == ...")

@@ -1,4 +1,4 @@
-"""Mass: a sliding mass."""
+"""Mass: sliding mass."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""MassWithStopAndFriction: a sliding mass with Stribeck friction between hard stops."""
+"""MassWithStopAndFriction: sliding mass with Stribeck friction between hard stops."""
 
 from __future__ import annotations
 
@@ -20,32 +20,32 @@ from acausal import (
 from components.thermal.heat_loss import HeatLoss
 from components.translational.rigid import Rigid
 
-# Greatest force of sticking over the friction at the speed 0, so that it does not stick and slide at one load (as in Modelica).
+# Largest sticking force over the sliding force at zero speed: above 1 against chattering (value of the Modelica library).
 PEAK = 1.001
 
 
 class MassWithStopAndFriction(HeatLoss, Rigid):
-    """Sliding mass with viscous, Coulomb and Stribeck friction, which two hard stops bring to rest.
+    """Sliding mass with viscous, Coulomb and Stribeck friction between two inelastic stops.
 
     Notes
     -----
-    Sliding, the friction is F_prop v + sign(v) (F_Coulomb + F_Stribeck exp(-fexp |v|)). At a stop the mass loses its kinetic
-    energy and rests there until a force draws it away.
+    The sliding friction is F_prop v + sign(v) (F_Coulomb + F_Stribeck exp(-fexp |v|)). At a stop the mass loses its kinetic
+    energy and rests until a force pulls it away.
     """
 
     m: Scalar = parameter("mass", unit="kg", minimum=0)
     F_prop: Scalar = parameter("viscous friction", unit="N.s/m", minimum=0)
     F_Coulomb: Scalar = parameter("Coulomb friction", unit="N", minimum=0)
-    F_Stribeck: Scalar = parameter("Stribeck friction at the speed 0", unit="N", minimum=0)
+    F_Stribeck: Scalar = parameter("Stribeck friction at zero speed", unit="N", minimum=0)
     fexp: Scalar = parameter("decay of the Stribeck friction over the speed", unit="s/m", minimum=0)
     smax: Scalar = parameter("stop of flange_b", unit="m", default=25)
     smin: Scalar = parameter("stop of flange_a", unit="m", default=-25)
     v: Scalar = variable("der(s)", unit="m/s")
     a: Scalar = variable("der(v)", unit="m/s2")
     f: Scalar = variable("force of friction and stops against the motion", unit="N")
-    mode: Scalar = discrete("1 slides forward, 0 rests, -1 slides backward", unit="1", start=sign(v))
+    mode: Scalar = discrete("1 sliding forward, 0 at rest, -1 sliding backward", unit="1", start=sign(v))
     stopped: Scalar = discrete("1 at smax, -1 at smin, else 0", unit="1")
-    v_stuck: Scalar = discrete("v when it last came to rest or broke away, 0 but for rounding", unit="m/s")
+    v_stuck: Scalar = discrete("v at the last transition, 0 up to rounding", unit="m/s")
 
     def equations(self):
         yield from super().equations()
@@ -69,11 +69,11 @@ class MassWithStopAndFriction(HeatLoss, Rigid):
 
     def requirements(self):
         name = self._path or type(self).__name__
-        yield require(self.smax - self.smin > self.L, f"the stops of {name} are nearer than its length L")
+        yield require(self.smax - self.smin > self.L, f"the stops of {name} are closer than its length L")
         for sense, stop, word in ((1, self.smax, "smax"), (-1, self.smin, "smin")):
             yield require(
                 sense * (stop - self.s) >= self.L / 2,
-                f"{name} starts beyond its stop {word}: start it between its stops",
+                f"{name} starts beyond its stop {word}; start it between its stops",
             )
 
     def stored_energy(self):

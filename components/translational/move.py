@@ -1,16 +1,16 @@
-"""Move: a drive that prescribes position, speed and acceleration."""
+"""Move: drive with prescribed position, speed and acceleration."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from acausal import input
-from components.given_motion import GivenMotion
+from components.prescribed_motion import PrescribedMotion
 from components.translational.one_flange import OneFlange
 
 
-class Move(GivenMotion, OneFlange):
-    """Drive that moves the rod by signals of its position, speed and acceleration, of which none is differentiated."""
+class Move(PrescribedMotion, OneFlange):
+    """Drive that prescribes position, speed and acceleration of the rod by signals, without differentiating any."""
 
     u: Any = input("position, speed and acceleration relative to the support", unit=("m", "m/s", "m/s2"), shape=(3,))
 

@@ -10,7 +10,7 @@ class MultiSensor(CutSensor):
     """Measures the speed of a rod, the force in it and the power through it."""
 
     v: Scalar = output("absolute speed of the flanges", unit="m/s")
-    f: Scalar = output("cut force, flange_a.f: positive where flange_a is pushed towards flange_b", unit="N")
+    f: Scalar = output("cut force, flange_a.f: positive in compression", unit="N")
     power: Scalar = output("power from flange_a to flange_b", unit="W")
 
     def measure(self):

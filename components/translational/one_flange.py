@@ -7,10 +7,10 @@ from components.translational.flange import TranslationalFlange
 
 
 class OneFlange(Component):
-    """Base of drives with one rod end, whose housing stands still or is a flange of its own."""
+    """Base of drives with one rod end; the housing is fixed or has its own flange."""
 
     ends = ("flange", "flange")
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     flange: TranslationalFlange = port(TranslationalFlange, "rod end")
     s: Scalar = variable("position of the flange relative to the support", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")

@@ -1,4 +1,4 @@
-"""Position: a drive that prescribes the position."""
+"""Position: drive with prescribed position."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from components.translational.one_flange import OneFlange
 
 
 class Position(OneFlange):
-    """Drive that moves the rod as prescribed."""
+    """Drive that prescribes the position of the rod."""
 
-    s_ref: Scalar = input("position of the flange", unit="m", doc="Forces jump where its second derivative does.")
+    s_ref: Scalar = input("position of the flange", unit="m", doc="The force jumps with its second derivative.")
     exact: bool = structural(
         "whether the flange follows s_ref exactly",
         default=True,
         choices=(True, False),
-        doc="False lets it follow s_ref through a filter of the second order, begun at rest: for a position of "
-        "which no derivative is known, such as an input of the whole model, or one that jumps.",
+        doc="False: second-order filter, initially at rest, for a position without known derivatives, such as an input "
+        "of the model, or with jumps.",
     )
     f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
     s: Scalar = variable("position of the flange relative to the support", unit="m", select=PREFER)

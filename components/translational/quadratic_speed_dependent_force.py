@@ -1,4 +1,4 @@
-"""QuadraticSpeedDependentForce: a force that grows with the square of the speed."""
+"""QuadraticSpeedDependentForce: force proportional to the square of the speed."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from components.translational.loading_force import LoadingForce
 
 
 class QuadraticSpeedDependentForce(LoadingForce):
-    """Force that grows with the square of the speed, as drag does."""
+    """Force proportional to the square of the speed, such as drag."""
 
     f_nominal: Scalar = parameter(
-        "force on the rod at v_nominal", unit="N", doc="Negative: a load where the rod moves forwards."
+        "force on the rod at v_nominal", unit="N", doc="Negative for a load on a rod moving forwards."
     )
     force_direction: bool = structural(
-        "whether the force has one sense in both directions of motion", default=True, choices=(True, False)
+        "whether the force has the same sign in both directions of motion", default=True, choices=(True, False)
     )
     v_nominal: Scalar = parameter("nominal speed", unit="m/s", positive=True)
 

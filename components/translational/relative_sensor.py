@@ -9,7 +9,7 @@ from components.translational.flange import TwoFlanges
 
 
 class RelativeSensor(TwoFlanges):
-    """Base of sensors between two rod ends, which bear no force; a subclass states what it measures."""
+    """Base of sensors between two rod ends, which transmit no force; a subclass defines the measured values."""
 
     s_rel: Scalar = variable("position of flange_b relative to flange_a", unit="m")
 
@@ -20,5 +20,5 @@ class RelativeSensor(TwoFlanges):
         yield from self.measure()
 
     def measure(self) -> Any:
-        """Yield the equations of further measured values."""
+        """Yield the equations of additional measured values."""
         yield from ()

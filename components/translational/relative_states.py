@@ -1,4 +1,4 @@
-"""RelativeStates: makes a relative motion the state."""
+"""RelativeStates: selects the relative motion as states."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from components.translational.flange import TwoFlanges
 
 
 class RelativeStates(TwoFlanges):
-    """Makes the relative position and speed of two rod ends states; it transmits no force."""
+    """Selects the relative position and speed of two rod ends as states, without force."""
 
     s_rel: Scalar = variable("position of flange_b relative to flange_a", unit="m", select=ALWAYS)
     v_rel: Scalar = variable("der(s_rel)", unit="m/s", select=ALWAYS)

@@ -7,7 +7,7 @@ from components.translational.flange import TwoFlanges
 
 
 class Rigid(TwoFlanges):
-    """Base of rigid parts of the length L; a subclass states the balance of forces."""
+    """Base of rigid parts of length L; a subclass defines the balance of forces."""
 
     L: Scalar = parameter("length, from flange_a to flange_b", unit="m", default=0)
     s: Scalar = variable("absolute position of the centre", unit="m", select=PREFER)

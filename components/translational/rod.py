@@ -1,4 +1,4 @@
-"""Rod: a massless rod."""
+"""Rod: rigid massless rod."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from components.translational.rigid import Rigid
 
 
 class Rod(Rigid):
-    """Massless rigid rod."""
+    """Rigid massless rod."""
 
     def equations(self):
         yield from super().equations()

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from acausal import Expr, Scalar, der, discrete, port, quantity, sign, structural, variable
-from components.dry_friction import DryFriction
+from components.dry_friction import MODE, SLIP, STUCK, DryFriction
 from components.translational.flange import TranslationalFlange, TwoFlanges
 
 
 class RodFriction(DryFriction, TwoFlanges):
-    """Base of dry friction between a rigid massless rod and its housing, which stands still or is a flange of its own."""
+    """Base of dry friction between a rigid massless rod and its housing, which is fixed or has its own flange."""
 
-    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    use_support: bool = structural("whether the housing has a flange `support`", default=False, choices=(True, False))
     s: Scalar = variable("position of the rod relative to the support", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")
     a: Scalar = variable("der(v)", unit="m/s2")
-    f: Scalar = variable("force of the friction against v", unit="N")
-    mode: Scalar = discrete("1 slides forward, 0 sticks, -1 slides backward", unit="1", start=sign(v))
-    v_stuck: Scalar = discrete("v when it last stuck or broke away, 0 but for rounding", unit="m/s")
-    v_slip: Scalar = discrete("change of v at which it no longer rests where others keep it at rest", unit="m/s")
+    f: Scalar = variable("friction force opposing v", unit="N")
+    mode: Scalar = discrete(MODE, unit="1", start=sign(v))
+    v_stuck: Scalar = discrete(STUCK, unit="m/s")
+    v_slip: Scalar = discrete(SLIP, unit="m/s")
 
     @port
     def support(self) -> TranslationalFlange | None:
@@ -40,5 +40,5 @@ class RodFriction(DryFriction, TwoFlanges):
         return self.f * self.v
 
     def sliding_speed(self) -> Expr:
-        """Speed of the rod, not less than 0 while it slides."""
+        """Magnitude of the rod speed during sliding."""
         return self.mode * self.v

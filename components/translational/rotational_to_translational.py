@@ -8,14 +8,14 @@ from components.translational.flange import TranslationalFlange
 
 
 class RotationalToTranslational(Component):
-    """Base of ideal gears from rotation to translation; a subclass states phi / s."""
+    """Base of ideal gears from rotation to translation; a subclass defines transmission_ratio()."""
 
     ends = ("flange_r", "flange_t")
     use_support_r: bool = structural(
-        "whether the housing of the shaft has a flange, support_r", default=False, choices=(True, False)
+        "whether the housing of the shaft has a flange `support_r`", default=False, choices=(True, False)
     )
     use_support_t: bool = structural(
-        "whether the housing of the rod has a flange, support_t", default=False, choices=(True, False)
+        "whether the housing of the rod has a flange `support_t`", default=False, choices=(True, False)
     )
     flange_r: Flange = port(Flange, "shaft end")
     flange_t: TranslationalFlange = port(TranslationalFlange, "rod end")
@@ -33,7 +33,7 @@ class RotationalToTranslational(Component):
         return TranslationalFlange() if self.use_support_t else None
 
     def equations(self):
-        ratio = self.turns()
+        ratio = self.transmission_ratio()
         yield self.phi == self.flange_r.phi - (self.support_r.phi if self.use_support_r else 0)
         yield self.s == self.flange_t.s - (self.support_t.s if self.use_support_t else 0)
         yield self.phi == ratio * self.s
@@ -43,6 +43,6 @@ class RotationalToTranslational(Component):
         if self.use_support_t:
             yield self.support_t.f == -self.flange_t.f
 
-    def turns(self) -> Expr:
-        """Angle of the shaft over the way of the rod, in rad/m."""
-        raise NotImplementedError("returns its ratio phi / s", "return ...")
+    def transmission_ratio(self) -> Expr:
+        """Return the angle of the shaft over the displacement of the rod, in rad/m."""
+        raise NotImplementedError("returns the ratio phi / s", "return ...")

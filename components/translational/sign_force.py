@@ -1,4 +1,4 @@
-"""SignForce: a constant force that changes its sign with the speed."""
+"""SignForce: constant force with the sign of the speed."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from components.translational.loading_force import LoadingForce
 
 
 class SignForce(LoadingForce):
-    """Constant force that changes its sign with the speed."""
+    """Constant force with the sign of the speed, regularised at 0."""
 
-    f_nominal: Scalar = parameter("force on the rod", unit="N", doc="Negative: a load in both directions of motion.")
-    reg: str = structural("how the sign is regularised", default="exp", choices=KINDS)
-    v0: Scalar = parameter("speed below which it is regularised", unit="m/s", default=0.1, positive=True)
+    f_nominal: Scalar = parameter("force on the rod", unit="N", doc="Negative for a load in both directions of motion.")
+    reg: str = structural("regularisation of the sign", default="exp", choices=KINDS)
+    v0: Scalar = parameter("speed below which the sign is regularised", unit="m/s", default=0.1, positive=True)
 
     def law(self):
         """Regularised sign of the speed."""

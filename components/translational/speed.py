@@ -1,4 +1,4 @@
-"""Speed: a drive that prescribes the speed."""
+"""Speed: drive with prescribed speed."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from components.translational.one_flange import OneFlange
 
 
 class Speed(OneFlange):
-    """Drive that moves the rod at the prescribed speed."""
+    """Drive that prescribes the speed of the rod."""
 
     v_ref: Scalar = input("speed of the flange", unit="m/s")
     exact: bool = structural(
         "whether the flange follows v_ref exactly",
         default=True,
         choices=(True, False),
-        doc="False lets it follow v_ref through a filter of the first order: for a speed of which no derivative "
-        "is known, such as an input of the whole model, or one that jumps.",
+        doc="False: first-order filter, for a speed without known derivative, such as an input of the model, or with "
+        "jumps.",
     )
     f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
     s: Scalar = variable("position of the flange relative to the support", unit="m", select=PREFER)

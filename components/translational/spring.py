@@ -1,4 +1,4 @@
-"""Spring: a linear spring."""
+"""Spring: linear spring."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ class Spring(Compliant):
     """Linear spring."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
-    s_rel0: Scalar = parameter("unstretched length", unit="m", default=0, doc="There it bears no force.")
+    s_rel0: Scalar = parameter("unstretched length", unit="m", default=0, doc="The force is 0 there.")
 
     def law(self):
         """Hooke's law."""

@@ -1,4 +1,4 @@
-"""SpringDamper: a spring and a damper in parallel."""
+"""SpringDamper: spring and damper in parallel."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from components.translational.compliant import Compliant
 
 
 class SpringDamper(HeatLoss, Compliant):
-    """Linear spring and linear damper in parallel."""
+    """Linear spring and damper in parallel."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
     d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
-    s_rel0: Scalar = parameter("unstretched length", unit="m", default=0, doc="There the spring bears no force.")
+    s_rel0: Scalar = parameter("unstretched length", unit="m", default=0, doc="The spring force is 0 there.")
 
     def law(self):
         """Hooke's law, and a force proportional to the speed."""

@@ -13,16 +13,16 @@ class SupportFriction(RodFriction):
     """Coulomb friction with stiction of a rigid massless rod in its support."""
 
     f_pos: Any = structural(
-        "force against sliding over the speed",
+        "sliding force over the speed",
         default=((0, 1),),
-        doc="A number in N, or rows (speed in m/s, force in N) of ascending speeds from 0 on, between which it is linear.",
+        doc="A number in N, or rows (speed in m/s, force in N) with ascending speeds from 0 on, linearly interpolated.",
     )
     peak: Scalar = parameter(
-        "ratio of the greatest forces of sticking and of sliding at the speed 0", unit="1", default=1, minimum=1
+        "ratio of the largest sticking force to the sliding force at zero speed", unit="1", default=1, minimum=1
     )
 
     def holding(self) -> Expr:
-        """Greatest force of sticking."""
+        """Largest force of sticking."""
         return self.peak * self._force().at_rest()
 
     def dragging(self) -> Expr:

@@ -1,4 +1,4 @@
-"""Vehicle: a vehicle in one dimension."""
+"""Vehicle: longitudinal dynamics of a vehicle."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from components.translational.flange import TranslationalFlange
 
 
 class Vehicle(Component):
-    """Vehicle on wheels that roll without slip, with drag, rolling resistance and a slope.
+    """Longitudinal dynamics of a vehicle on wheels without slip, with drag, rolling resistance and road inclination.
 
     Notes
     -----
@@ -25,31 +25,31 @@ class Vehicle(Component):
     A: Scalar = parameter("cross section", unit="m2", minimum=0)
     Cd: Scalar = parameter("drag coefficient", unit="1", minimum=0)
     rho: Scalar = parameter("density of air", unit="kg/m3", default=1.2, minimum=0)
-    v_wind_constant: Scalar = parameter("speed of the wind", unit="m/s", default=0)
+    v_wind_constant: Scalar = parameter("wind speed", unit="m/s", default=0)
     cr_constant: Scalar = parameter("coefficient of rolling resistance", unit="1", default=0.015, minimum=0)
     v_reg: Scalar = parameter(
         "speed below which the rolling resistance is linear", unit="m/s", default=1e-3, positive=True
     )
     inclination_constant: Scalar = parameter(
-        "inclination of the road", unit="1", default=0, doc="Tangent of its angle, not the angle."
+        "inclination of the road", unit="1", default=0, doc="Tangent of the angle."
     )
     v_wind: Scalar = input(
-        "speed of a wind that varies",
+        "variable wind speed",
         unit="m/s",
         default=lambda s: s.v_wind_constant,
         doc="v_wind_constant if not given.",
     )
     cr: Scalar = input(
-        "coefficient of rolling resistance that varies",
+        "variable coefficient of rolling resistance",
         unit="1",
         default=lambda s: s.cr_constant,
         doc="cr_constant if not given.",
     )
     inclination: Scalar = input(
-        "inclination of the road that varies",
+        "variable inclination of the road",
         unit="1",
         default=lambda s: s.inclination_constant,
-        doc="Tangent of its angle; inclination_constant if not given.",
+        doc="Tangent of the angle; inclination_constant if not given.",
     )
     flange_r: Flange = port(Flange, "drive shaft")
     flange_t: TranslationalFlange = port(TranslationalFlange, "drawbar")
@@ -77,7 +77,7 @@ class Vehicle(Component):
         return (self.m + self.J / self.R**2) * self.v**2 / 2
 
     def dissipated_power(self):
-        """Power of the rolling resistance, and of the drag on the way through the air."""
+        """Power of the rolling resistance, and of the drag at the relative air speed."""
         return self.f_roll * self.v + self.f_drag * (self.v - self.v_wind)
 
     def supplied_power(self):

@@ -1,4 +1,4 @@
-"""Assemblies of vehicles, in axes x forward, y up, z to the right, a car that is made of them, and a gear box."""
+"""Vehicle assemblies with axes x forward, y up, z right, a car built from them, and a gearbox."""
 
 from models.vehicle.arm import Arm
 from models.vehicle.axle import Axle

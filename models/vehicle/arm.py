@@ -1,4 +1,4 @@
-"""Arm of a suspension."""
+"""Suspension arm."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from models.vehicle.points import diagonal
 
 
 class Arm(TwoFrames):
-    """Arm on a bearing along x; frame_a is fixed to the chassis, frame_b to the arm at its ball joint."""
+    """Suspension arm on a bearing along x; frame_a is fixed to the chassis, frame_b to the arm at its ball joint."""
 
     at: Any = structural("bearing, resolved in frame_a, in m", shape=(3,))
     r: Any = structural("from the bearing to the ball joint, in m", shape=(3,))
     m: Scalar = parameter("mass", unit="kg", default=5)
-    starts: bool = structural("whether the arm rests at the start", default=False, choices=(True, False))
+    starts: bool = structural("whether the arm is fixed at rest initially", default=False, choices=(True, False))
 
     @part
     def mount(self):
-        """From frame_a to the bearing."""
+        """Offset from frame_a to the bearing."""
         return FixedTranslation(r=self.at)
 
     @part
@@ -29,7 +29,7 @@ class Arm(TwoFrames):
 
     @part
     def body(self):
-        """The arm: a rod, half as heavy along x."""
+        """The arm: inertia of a rod, with half the transverse moment of inertia about z."""
         J = self.m * (self.r[1] ** 2 + self.r[2] ** 2) / 12
         return BodyShape(r=self.r, r_CM=self.r / 2, m=self.m, I=diagonal(J, J, J / 2))
 

@@ -1,4 +1,4 @@
-"""Car on double wishbones over a bump, steered by its rack; x forward, y up, z to the right."""
+"""Car with double wishbones driving over a bump while steering; x forward, y up, z right."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from models.vehicle.points import diagonal
 
 
 class Car(Model):
-    """Car of 1.2 t at 20 m/s over a bump of 50 mm, while the rack moves to the right and back; in equilibrium at first."""
+    """Car of 1.2 t at 20 m/s over a bump of 50 mm, with the rack moving right and back; initially in equilibrium."""
 
     stop_time = 1.0
-    speed: Scalar = parameter("speed at the start", unit="m/s", default=20, positive=True)
-    travel: Scalar = parameter("largest displacement of the rack, reached after 0.5 s", unit="m", default=2e-3)
+    speed: Scalar = parameter("initial speed", unit="m/s", default=20, positive=True)
+    travel: Scalar = parameter("maximum displacement of the rack, at 0.5 s", unit="m", default=2e-3)
     bump: Scalar = parameter("height of the bump", unit="m", default=0.05)
-    width: Scalar = parameter("half its width at 1 / e of its height", unit="m", default=0.5)
+    width: Scalar = parameter("half width of the bump at 1 / e of its height", unit="m", default=0.5)
     world = World()
     chassis = Body(
         m=1000,
@@ -34,7 +34,7 @@ class Car(Model):
     rear = part(lambda s: Axle(height=s.ground, v=s.speed, preload=3623))
     guide, rack = Prismatic(n=(0, 0, 1), use_axis_flange=True), Body(m=5, r_CM=(-0.12, 0.25, 0))
     steering = Position(s_ref=travel * (1 - cos(2 * pi * time)) / 2)
-    y: Scalar = output("height of the chassis over that of the drawing", unit="m")
+    y: Scalar = output("height of the chassis relative to the design position", unit="m")
     yaw_rate: Scalar = output("yaw rate, positive to the left", unit="rad/s")
 
     def ground(self, x, y):

@@ -15,20 +15,20 @@ class Corner(Component):
 
     ends = ("frame_a", "axis")
     side: int = structural("1 on the right, -1 on the left", default=1, choices=(1, -1))
-    height: Any = structural("height of the ground at a place", default=None, choices=(None, callable))
-    v: Scalar = parameter("speed at the start", unit="m/s", default=0)
-    preload: Scalar = parameter("force of the strut at the start", unit="N", default=3.6e3)
+    height: Any = structural("height of the ground, as for Tyre", default=None, choices=(None, callable))
+    v: Scalar = parameter("initial speed", unit="m/s", default=0)
+    preload: Scalar = parameter("initial force of the strut", unit="N", default=3.6e3)
     frame_a, frame_tie = port(Frame, "fixed to the chassis"), port(Frame, "inner end of the tie rod")
     axis: Flange = port(Flange, "drive shaft of the wheel")
 
     @part
     def suspension(self):
-        """Suspension, which may be replaced."""
+        """Suspension, replaceable."""
         return DoubleWishbone(side=self.side, preload=self.preload)
 
     @part
     def wheel(self):
-        """Wheel, which may be replaced."""
+        """Wheel, replaceable."""
         return Wheel(height=self.height, v=self.v)
 
     def connections(self):

@@ -6,12 +6,12 @@ from acausal import Component, Scalar, chain, connect, parameter, part, port, st
 from components import FixedTranslation, Frame, Revolute, SphericalSpherical, SpringDamperParallel, Universal
 from components.constraints import Spherical
 from models.vehicle.arm import Arm
-from models.vehicle.points import length, point, way
+from models.vehicle.points import length, offset, point
 from models.vehicle.upright import Upright
 
 
 class DoubleWishbone(Component):
-    """Two arms that carry an upright, a tie rod that steers it, and a strut from the lower arm to the chassis."""
+    """Two arms with an upright, a tie rod for steering, and a strut between lower arm and chassis."""
 
     ends = ("frame_a", "frame_b")
     side: int = structural("1 on the right, -1 on the left", default=1, choices=(1, -1))
@@ -22,7 +22,7 @@ class DoubleWishbone(Component):
     hub = point("centre of the wheel", 0, 0.3, 0.75)
     c: Scalar = parameter("stiffness of the strut", unit="N/m", default=4e4)
     d: Scalar = parameter("damping constant of the strut", unit="N.s/m", default=3e3)
-    preload: Scalar = parameter("force of the strut at the start", unit="N", default=3.6e3)
+    preload: Scalar = parameter("initial force of the strut", unit="N", default=3.6e3)
     frame_a, frame_b = port(Frame, "fixed to the chassis"), port(Frame, "fixed to the upright at the wheel")
     frame_tie = port(Frame, "inner end of the tie rod")
     tilt, steer, ball = Universal(n_a=(1, 0, 0), n_b=(0, 0, 1)), Revolute(n=(0, 1, 0)), Spherical()
@@ -34,18 +34,18 @@ class DoubleWishbone(Component):
 
     @part
     def upright(self):
-        """Upright on the lower arm."""
+        """Upright, mounted on the lower arm."""
         return Upright(**{f"r_{end}": self.to(name, "lower_out") for end, name in ENDS.items()})
 
     @part
     def strut(self):
-        """Spring and damper, which may be replaced."""
+        """Spring and damper, replaceable."""
         s_unstretched = length(self.strut_in, self.strut_out) + self.preload / self.c
         return SpringDamperParallel(c=self.c, d=self.d, s_unstretched=s_unstretched)
 
     def to(self, end: str, start: str | None = None):
-        """From a point, or from the origin of frame_a, to another."""
-        return way(getattr(self, start) if start else (0, 0, 0), getattr(self, end), self.side)
+        """Return the vector to a point from another point, or from the origin of frame_a."""
+        return offset(getattr(self, start) if start else (0, 0, 0), getattr(self, end), self.side)
 
     def connections(self):
         yield chain(self.frame_a, self.lower, self.tilt, self.steer, self.upright, self.frame_b)

@@ -1,4 +1,4 @@
-"""A motor that accelerates a load through the gears of a planetary gear box."""
+"""Motor accelerating a load through the gears of a planetary gearbox."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ SHIFT = 0.3  # duration of a shift in s
 
 
 class Shifting(Model):
-    """First gear from the start, second from 3 s, third from 6 s on; each shift opens one clutch or brake and closes another."""
+    """First gear from 0 s, second from 3 s, third from 6 s; each shift opens one clutch or brake and closes another."""
 
     stop_time = 9.0
     motor, drive = Inertia(J=0.2, phi=fixed(0), w=fixed(50)), Torque(tau=100)

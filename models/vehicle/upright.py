@@ -1,4 +1,4 @@
-"""Upright of a suspension."""
+"""Suspension upright."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from models.vehicle.points import diagonal
 
 
 class Upright(Component):
-    """Upright with its frames at the lower ball joint, the upper one, the tie rod and the wheel."""
+    """Upright with frames at the lower and upper ball joints, the tie rod and the wheel."""
 
     ends = ("lower", "hub")
     m: Scalar = parameter("mass", unit="kg", default=15)
@@ -25,7 +25,7 @@ class Upright(Component):
 
     @part
     def body(self):
-        """Mass, in the middle between the ball joints."""
+        """Mass, at the midpoint of the ball joints."""
         return Body(m=self.m, r_CM=self.r_upper / 2, I=diagonal(0.2, 0.1, 0.2))
 
     def connections(self):

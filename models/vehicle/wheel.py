@@ -10,19 +10,19 @@ from models.vehicle.points import diagonal
 
 
 class Wheel(Component):
-    """Wheel that turns about z on an upright, with a drive shaft `axis`."""
+    """Wheel rotating about z on an upright, with a drive shaft `axis`."""
 
     ends = ("frame_a", "axis")
-    height: Any = structural("height of the ground at a place", default=None, choices=(None, callable))
+    height: Any = structural("height of the ground, as for Tyre", default=None, choices=(None, callable))
     R_0: Scalar = parameter("radius of the unloaded tyre", unit="m", default=0.317)
-    radius: Scalar = parameter("height of its centre at the start, where it rolls", unit="m", default=0.3037)
+    radius: Scalar = parameter("initial height of the centre, as the rolling radius", unit="m", default=0.3037)
     J: Scalar = parameter("moment of inertia about the axis", unit="kg.m2", default=1)
-    v: Scalar = parameter("speed at the start", unit="m/s", default=0)
+    v: Scalar = parameter("initial speed", unit="m/s", default=0)
     frame_a, axis = port(Frame, "fixed to the upright at the centre of the wheel"), port(Flange, "drive shaft")
 
     @part
     def body(self):
-        """Mass, and the inertia of the wheel as if it were locked."""
+        """Mass, and inertia of the locked wheel."""
         return Body(m=20, I=diagonal(0.6 * self.J, 0.6 * self.J, self.J))
 
     @part
@@ -32,7 +32,7 @@ class Wheel(Component):
 
     @part
     def tyre(self):
-        """Tyre, which may be replaced."""
+        """Tyre, replaceable."""
         stiffness = {"c_z": 2.2e5, "d_z": 500, "c_kappa": 8e4, "c_alpha": 6e4}
         return Tyre(use_axis_flange=True, R_0=self.R_0, height=self.height, **stiffness)
 

@@ -21,7 +21,7 @@ from components import (
 L, E, J, J_Y, A, RHO = 2.0, 2e11, 3e-10, 1e-10, 1e-4, 7800.0
 BEAM = {"length": L, "E": E, "rho": RHO, "A": A, "J": J, "J_y": J_Y, "beta": 1e-3}
 NOTICED = 1e-3
-ACROSS, TWISTED = "rigid across its xy plane", "rigid against torsion"
+ACROSS, TWISTED = "rigid out of its xy plane", "rigid in torsion"
 # Loads that bend a cantilever by 1 / 1000 of its length, and twist a round one by 1 / 1000 rad.
 FORCE = NOTICED * L * 3 * E * J_Y / L**3
 MOMENT = NOTICED * L * 2 * E * J_Y / L**2

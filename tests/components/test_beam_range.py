@@ -28,7 +28,7 @@ from components import (
 from tests.reference.elastica import tip_force
 
 SECTION: dict = {"length": 1, "E": 1e9, "rho": 1000, "A": 1e-4, "J": 1e-9, "axial": "none", "initial": "static"}
-AXIAL, SLOPE = "axial force", "slopes too much"
+AXIAL, SLOPE = "axial force", "slope is too large"
 
 
 def doubts(model, **options):

@@ -227,7 +227,7 @@ class Rolling(Model):
 
 
 def test_singular_positions():
-    with pytest.raises(SimulationError, match="rim is parallel to the plane, where it has no lowest point"):
+    with pytest.raises(SimulationError, match="rim is parallel to the plane and has no lowest point"):
         ac.simulate(Rolling(it=RimOnPlane(k=5, radius=0.3)), stop_time=2.0)
     with pytest.raises(InitializationError, match="is parallel to the plane at the start"):
         ac.simulate(Ball(it=RimOnPlane(k=1, radius=0.3, n_b=(0, 1, 0)), r=(0, 1, 0)), stop_time=0.1)
@@ -239,13 +239,13 @@ def test_singular_positions():
 
 
 def test_doubtful_penetrations():
-    with pytest.warns(AcausalWarning, match="more than a tenth of its radius"):
+    with pytest.warns(AcausalWarning, match="exceeds a tenth of its radius"):
         ac.simulate(Ball(it=SphereOnPlane(k=1e4, radius=RADIUS), r=(0, 0.1, 0), v=(0, -2, 0)), stop_time=0.1)
     it = PointOnProfile(k=1e4, height=lambda r: 20 * r[0] ** 2)
     tight = SphereOnProfile(k=1e7, radius=RADIUS, height=lambda r: 11 * r[0] ** 2)
-    with pytest.warns(AcausalWarning, match="tighter than the radius of its sphere"):
+    with pytest.warns(AcausalWarning, match="smaller than that of the sphere"):
         ac.simulate(Ball(it=tight, r=(0, 0.1, 0), v=(0, -2, 0)), stop_time=0.1)
-    with pytest.warns(AcausalWarning, match="profile is too tight"):
+    with pytest.warns(AcausalWarning, match="tenth of the radius of curvature"):
         ac.simulate(Ball(it=it, r=(0, 0.1, 0), v=(0, -2, 0)), stop_time=0.1)
 
 

@@ -117,15 +117,15 @@ def test_one_way_clutch_does_not_start_against_its_sense():
 @pytest.mark.parametrize(
     ("part", "problem"),
     [
-        (lambda: r.BearingFriction(), "bearing has no torque: give `tau_sliding`, or `tau_pos`"),
-        (lambda: r.BearingFriction(tau_pos=[(0, 1, 2)]), r"`tau_pos` of bearing is .*: give rows \(speed, value\)"),
+        (lambda: r.BearingFriction(), "bearing has no friction torque; give `tau_sliding`, or `tau_pos`"),
+        (lambda: r.BearingFriction(tau_pos=[(0, 1, 2)]), r"`tau_pos` of bearing is .*; give rows \(speed, value\)"),
         (lambda: r.BearingFriction(tau_pos=[(1, 1), (0, 2)]), "ascending speeds"),
         (lambda: r.BearingFriction(tau_pos="no"), r"give rows \(speed, value\)"),
-        (lambda: r.BearingFriction(tau_pos=1, tau_sliding=2), "is not what its `tau_pos` says"),
-        (lambda: r.BearingFriction(tau_sliding=2, tau_static=1), "more than its `tau_static`"),
+        (lambda: r.BearingFriction(tau_pos=1, tau_sliding=2), "differs from its `tau_pos`"),
+        (lambda: r.BearingFriction(tau_sliding=2, tau_static=1), "exceeds `tau_static`"),
         (lambda: r.Brake(f_normalized=1), "Give one of them"),
         (lambda: r.Brake(f_normalized=1, fn_max=1, tau_max=2), "`tau_max` of bearing is not mu_pos cgeo fn_max"),
-        (lambda: r.LossyGear(ratio=1, loss_table=[(0, 1.2, 1, 0, 0)]), "holds an efficiency"),
+        (lambda: r.LossyGear(ratio=1, loss_table=[(0, 1.2, 1, 0, 0)]), "has an efficiency"),
         (lambda: r.LossyGear(ratio=1, loss_table=[(0, 1, 1)]), r"give rows \(speed, 4 values\)"),
     ],
 )

@@ -210,11 +210,11 @@ def refused(model: Model, message: str) -> None:
 
 
 def test_wrong_input():
-    refused(Bead(wire=PointOnCurve(curve=3, u=fixed(0), der_u=fixed(0))), "`curve` is no function; give one of u")
+    refused(Bead(wire=PointOnCurve(curve=3, u=fixed(0), der_u=fixed(0))), "`curve` is not a function; give a function of u")
     refused(
         Bead(wire=PointOnCurve(curve=lambda u: (u, u), u=fixed(0), der_u=fixed(0))), "does not return three coordinates"
     )
     flat = PointOnCurve(curve=lambda u: (u**2, u**3, 0), u=fixed(0), der_u=fixed(0))
     refused(Bead(wire=flat), "no tangent at the start")
-    refused(Steering(gear=RackAndPinion(radius=R, n_a=(1, 0, 0.1))), "`n_b` is not at right angles to `n_a`")
+    refused(Steering(gear=RackAndPinion(radius=R, n_a=(1, 0, 0.1))), "`n_b` is not perpendicular to `n_a`")
     refused(Nut(screw=ScrewJoint(n=(0, 0, 0), pitch=1)), "`n` has length 0")

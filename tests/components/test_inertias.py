@@ -30,9 +30,9 @@ def turned(I):
 IMPOSSIBLE = [
     (-np.eye(3), "negative moment of inertia about x"),
     (np.diag([0.0, 0, -1]), "negative moment of inertia about z"),
-    (turned(np.diag([1.0, 1, -0.5])), "is not the inertia of a body|negative moment"),
-    (np.array([[1, 1.1, 0], [1.1, 1, 0], [0, 0, 1]]), "none may be negative"),
-    (turned(np.diag([1.0, 3, -1e-10])), "none may be negative"),
+    (turned(np.diag([1.0, 1, -0.5])), "negative (principal )?moment"),
+    (np.array([[1, 1.1, 0], [1.1, 1, 0], [0, 0, 1]]), "negative principal moment"),
+    (turned(np.diag([1.0, 3, -1e-10])), "negative principal moment"),
     (np.array([[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]), r"not symmetric: I\[0,1\] is 0.1 and I\[1,0\] is 0"),
     (np.array([[1, 0, 0], [0, 1, 0.2], [0, -0.2, 1]]), "not symmetric"),
 ]
@@ -112,16 +112,16 @@ def test_possible_inertia(I):
     ac.compile(Held(it=Body(m=1, I=I)))
 
 
-def test_inertia_is_looked_at_again_when_it_is_changed():
+def test_changed_inertia_is_checked_again():
     compiled = ac.compile(Held(it=Body(m=1, I=turned(np.diag([1.0, 2, 2.5])))))
     ac.simulate(compiled, stop_time=0.1, parameters={"it.I": turned(np.diag([1.0, 1, 1.5]))})
     with pytest.warns(ac.AcausalWarning, match="sum of the other two"):
         ac.simulate(compiled, stop_time=0.1, parameters={"it.I": turned(np.diag([1.0, 1, 2.5]))})
-    with pytest.raises(DeclarationError, match=r"may be negative|negative moment"):
+    with pytest.raises(DeclarationError, match=r"negative (principal )?moment"):
         ac.simulate(compiled, stop_time=0.1, parameters={"it.I": turned(np.diag([1.0, 1, -0.5]))})
 
 
-def test_only_inertias_that_changed_are_looked_at(monkeypatch):
+def test_only_changed_inertias_are_checked(monkeypatch):
     class Two(Model):
         world = World(gravity=None)
         one, other = Revolute(phi=fixed(0), w=fixed(1)), Revolute(phi=fixed(0), w=fixed(1))

@@ -43,8 +43,8 @@ class Held(Model):
 @pytest.mark.parametrize(
     ("body", "message"),
     [
-        (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(1, 0, 0)), "`width_direction` of it lies along `r`"),
-        (BodyBox(r=(1, 2, 3), width=0.1, width_direction=(-2, -4, -6)), "`width_direction` of it lies along `r`"),
+        (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(1, 0, 0)), "`width_direction` of it is parallel to `r`"),
+        (BodyBox(r=(1, 2, 3), width=0.1, width_direction=(-2, -4, -6)), "`width_direction` of it is parallel to `r`"),
         (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(0, 0, 0)), "has length 0"),
         (BodyBox(r=(1, 0, 0), width=0.1, width_direction="y"), "three numbers"),
         (BodyBox(r=(1, 0, 0), width=0.1, width_direction=(0, np.nan, 1)), "three numbers"),
@@ -69,7 +69,7 @@ def test_impossible_shapes(body, message):
 @pytest.mark.parametrize(
     ("body", "changes", "message"),
     [
-        (BodyBox(r=(1, 1, 0), width=0.1, width_direction=(1, 0, 0)), {"it.r": (1, 1e-9, 0)}, "lies along `r`"),
+        (BodyBox(r=(1, 1, 0), width=0.1, width_direction=(1, 0, 0)), {"it.r": (1, 1e-9, 0)}, "is parallel to `r`"),
         (BodyCylinder(r=(1, 0, 0), diameter=0.1, inner_diameter=0.05), {"it.diameter": 0.04}, "`inner_diameter`"),
         (BodyCylinder(r=(1, 0, 0), diameter=0.1), {"it.r": (0, 0, 0)}, "length 0"),
     ],
@@ -167,6 +167,6 @@ def test_friction_that_slides_with_more_than_it_sticks_is_refused():
         def connections(self):
             yield chain(self.wall.flange, self.brake, self.shaft.flange_a)
 
-    with pytest.raises(DeclarationError, match=r"`tau_sliding` of brake is more than its `tau_static`"):
+    with pytest.raises(DeclarationError, match=r"`tau_sliding` of brake exceeds `tau_static`"):
         ac.simulate(Braked(), stop_time=0.1, parameters={"brake.tau_sliding": 2.0})
     assert ac.simulate(Braked(), stop_time=0.1, parameters={"brake.tau_sliding": 1.3}).time[-1] == 0.1

@@ -97,7 +97,7 @@ def test_two_wheels_in_line():
 
 
 def test_wheel_that_falls_flat():
-    with pytest.raises(ac.SimulationError, match=r"wheel\.rolling_wheel.*at t = 0\.\d+ s it falls flat.*roll faster"):
+    with pytest.raises(ac.SimulationError, match=r"wheel\.rolling_wheel.*at t = 0\.\d+ s the wheel falls flat.*higher speed"):
         ac.simulate(
             Wheel(wheel=RollingWheel(radius=r, m=m, I_axis=C, I_long=A, der_angles=fixed((0, 0, 1)))), stop_time=2
         )
@@ -110,5 +110,5 @@ def test_wheel_that_falls_flat():
 def test_wheel_that_would_lift_off():
     """A fast wheel that starts to lean fast rises from the road."""
     fast = RollingWheel(radius=r, m=m, I_axis=C, I_long=A, der_angles=fixed((0, 0, 9.0)))
-    with pytest.warns(ac.AcausalWarning, match="it would lift off"):
+    with pytest.warns(ac.AcausalWarning, match="the wheel would lift off"):
         ac.simulate(Wheel(wheel=fast), stop_time=0.1)

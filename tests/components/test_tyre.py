@@ -254,7 +254,7 @@ def test_wheel_on_a_shaft_moves_like_one_that_turns_with_its_frame():
     ("values", "message"),
     [
         ({"n": (0, 0, 0)}, "`n` has length 0"),
-        ({"n_x": (0, 2, 0)}, "`n_x` lies along `up`"),
+        ({"n_x": (0, 2, 0)}, "`n_x` is parallel to `up`"),
         ({"c_z": -1}, "greater than 0"),
         ({"height": 0.1}, "height"),
     ],

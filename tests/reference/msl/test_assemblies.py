@@ -175,7 +175,7 @@ def test_strut_of_negative_length_is_refused():
     class Backwards(Strut):
         strut = JointUPS(use_axis_flange=True, n_axis_ia=(-1, 0, 0))
 
-    with pytest.raises(ac.AcausalError, match="length of the strut is negative at the start; give n_axis_ia"):
+    with pytest.raises(ac.AcausalError, match="initial length of the strut is negative; give n_axis_ia"):
         ac.simulate(Backwards(), stop_time=0.1)
 
 

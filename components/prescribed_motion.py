@@ -1,4 +1,4 @@
-"""GivenMotion: base of drives by signals of position, speed and acceleration."""
+"""PrescribedMotion: base of drives prescribed by position, speed and acceleration signals."""
 
 from __future__ import annotations
 
@@ -8,27 +8,27 @@ from typing import Any
 from acausal import Component, variable
 
 
-class GivenMotion(Component):
-    """Base of drives by signals of position, speed and acceleration, of which none is differentiated.
+class PrescribedMotion(Component):
+    """Base of drives prescribed by signals of position, speed and acceleration, without differentiating any of them.
 
     Notes
     -----
-    Where the motion is needed at a higher level, the next signal is used. It should be the derivative of the one before.
+    The next signal replaces each derivative, so each signal should be the derivative of the one before.
     """
 
     motion_units = ("m", "m/s", "m/s2")
     motion: Any = variable(
-        "position, speed and acceleration as the signals give them",
+        "prescribed position, speed and acceleration",
         unit=lambda self: self.motion_units[: self.levels()],
         shape=lambda self: (self.levels(),),
     )
 
     def levels(self) -> int:
-        """Return how many of position, speed and acceleration are given."""
+        """Return the number of signals: position, speed and acceleration."""
         return 3
 
-    def given(self, *signals: Any) -> Iterator[Any]:
-        """Yield equations of position, speed and acceleration; signals that are not used are 0."""
+    def motion_equations(self, *signals: Any) -> Iterator[Any]:
+        """Yield the equations of the prescribed motion; unused signals are 0."""
         for k, signal in enumerate(signals):
             yield self.motion[k] == signal if k < self.levels() else signal == 0
 
