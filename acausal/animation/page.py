@@ -7,8 +7,11 @@ import json
 from base64 import b64encode
 from functools import cache
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
+
+from acausal.errors import DeclarationError
 
 FOLDER = Path(__file__).with_name("page")
 # In this order they make one script: what is used while it is read stands before.
@@ -37,15 +40,17 @@ def html(document: dict[str, Any]) -> str:
     ------
     ValueError
         If the document holds a number that is not finite.
+    DeclarationError
+        If the package that contains three.js is not installed.
     """
-    bundle, viewer, style = bundled(), script(), part("viewer.css")
+    three, viewer, style = three_js(), script(), part("viewer.css")
     # In JSON "<" stands within strings only, where it may be written by its number: no tag can begin or end.
     data = json.dumps(document, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     fields = {
         "policy": "; ".join(
             (
                 "default-src 'none'",
-                f"script-src {hashed(bundle)} {hashed(viewer)}",
+                f"script-src {hashed(three)} {hashed(viewer)}",
                 f"style-src {hashed(style)}",
                 "base-uri 'none'",
                 "form-action 'none'",
@@ -54,7 +59,7 @@ def html(document: dict[str, Any]) -> str:
         "title": escape(str(document.get("title") or "animation")),
         "style": style,
         "document": data,
-        "bundle": bundle,
+        "three": three,
         "viewer": viewer,
     }
     first, *pieces = part("index.html").split("@")
@@ -67,9 +72,22 @@ def script() -> str:
     return "(() => {\n" + '"use strict";\n' + "".join(part(f"{name}.js") for name in SCRIPTS) + "})();\n"
 
 
-def bundled() -> str:
-    """Return three.js as one script that defines THREE; page/BUNDLE.md says how it was made."""
-    return part("three.min.js")
+@cache
+def three_js() -> str:
+    """Return three.js r130 with OrbitControls, as one script that defines THREE.
+
+    Raises
+    ------
+    DeclarationError
+        If the package that contains it is not installed.
+    """
+    try:
+        return files("jupyter_threejs_sage").joinpath("static/r130/three.min.js").read_text(encoding="utf-8")
+    except (ModuleNotFoundError, FileNotFoundError):
+        raise DeclarationError(
+            "an animated page needs three.js r130 from the package jupyter-threejs-sage, which is not installed: "
+            "python -m pip install 'jupyter-threejs-sage>=130'."
+        ) from None
 
 
 def hashed(text: str) -> str:

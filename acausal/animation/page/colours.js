@@ -6,6 +6,9 @@ const OF_KIND = {
 };
 const GHOST = ["#3d6fd0", "#e0218a", "#7a3ff2", "#0f9d9d"]; // of runs and traces: none is a body's
 
+/** Linear RGB of a colour "#rrggbb", for materials, lights and vertices: three.js r130 does not convert colours itself. */
+const linear = (colour) => new THREE.Color(colour).convertSRGBToLinear();
+
 /** The colour of a shape that has none of its own: by kind, and by part for bodies. */
 function colourOf(shape, bodies) {
   const known = shape.color ?? OF_KIND[shape.style ?? shape.quantity ?? shape.kind];
@@ -57,8 +60,8 @@ class ColourScale {
     if (!(high > low)) [low, high] = [0, 1];
     Object.assign(this, { low, high, unit: entry.unit, stops: both ? DIVERGING : SEQUENTIAL });
     this.table = new Float32Array(3 * 256);
-    // Mixed as the eye and the bar of the page have it, stored as light is added.
-    const colours = this.stops.map((c) => new THREE.Color(c).convertLinearToSRGB());
+    // Interpolated in sRGB, as in the bar of the page; stored as linear RGB.
+    const colours = this.stops.map((c) => new THREE.Color(c));
     for (let i = 0; i < 256; i++) {
       const place = (i / 255) * (colours.length - 1);
       const k = Math.min(Math.floor(place), colours.length - 2);

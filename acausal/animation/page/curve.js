@@ -11,7 +11,7 @@ class Curve {
     this.parts = clamp(Math.ceil(96 / (this.nodes - 1)), 4, 32);
     this.tube = new Tube((this.nodes - 1) * this.parts + 1, 20, context.look(shape, { vertexColors: true }));
     this.object = this.tube.object;
-    this.plain = new THREE.Color(context.colour(shape)).toArray();
+    this.plain = linear(context.colour(shape)).toArray();
     context.group.add(this.object);
   }
 

@@ -33,8 +33,7 @@ class Hover {
   }
 
   find(event) {
-    const box = this.stage.element.getBoundingClientRect();
-    const spot = this.stage.panelAt(event.clientX - box.left, event.clientY - box.top);
+    const spot = this.stage.panelAt(event);
     if (!spot || !this.stage.renderer) return null;
     this.ray.setFromCamera(new THREE.Vector2(spot.x, spot.y), this.stage.camera);
     const objects = spot.panel.runs.flatMap((run) => run.items.map((item) => item.object)).filter((object) => object.visible);

@@ -17,7 +17,7 @@ class Skin {
     const material = context.look(shape, { vertexColors: true, flatShading: true, side: THREE.DoubleSide });
     skin.object = new THREE.Mesh(geometry, material);
     skin.object.frustumCulled = false;
-    skin.plain = new THREE.Color(context.colour(shape)).toArray();
+    skin.plain = linear(context.colour(shape)).toArray();
     skin.pose.group.add(skin.object);
     return skin;
   }

@@ -34,7 +34,7 @@ class Run {
   /** A material for a shape; tubes and skins carry their colours in their vertices. */
   look(shape, more = {}) {
     const plain = more.vertexColors ? "#ffffff" : this.colour(shape);
-    const material = new THREE.MeshPhongMaterial({ color: plain, specular: "#333333", shininess: 40, ...more });
+    const material = new THREE.MeshPhongMaterial({ color: linear(plain), specular: linear("#333333"), shininess: 40, ...more });
     this.materials.push({ material, plain, painted: Boolean(more.vertexColors) });
     return material;
   }
@@ -45,7 +45,7 @@ class Run {
     for (const { material, plain, painted } of this.materials) {
       const coloured = painted && this.stage.colours.active;
       material.vertexColors = painted && (!ghost || coloured);
-      material.color.set(ghost && !coloured ? GHOST[this.number % GHOST.length] : plain);
+      material.color.copy(linear(ghost && !coloured ? GHOST[this.number % GHOST.length] : plain));
       material.transparent = ghost;
       material.opacity = ghost ? 0.42 : 1;
       material.depthWrite = !ghost;

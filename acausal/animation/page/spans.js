@@ -130,7 +130,7 @@ function tripod(size) {
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const colours = ["#e5484d", "#46a758", "#3b82f6"];
   axes.forEach((axis, k) => {
-    const material = new THREE.MeshBasicMaterial({ color: colours[k] });
+    const material = new THREE.MeshBasicMaterial({ color: linear(colours[k]) });
     const add = (geometry, from, to, diameter) => {
       const mesh = new THREE.Mesh(unitGeometry(geometry), material);
       mesh.matrixAutoUpdate = false;

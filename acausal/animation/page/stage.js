@@ -35,6 +35,8 @@ class Stage {
       const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
       renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
       renderer.autoClear = false;
+      renderer.outputEncoding = THREE.sRGBEncoding;
+      renderer.physicallyCorrectLights = true; // irradiance as given, not multiplied by pi
       this.element.prepend(canvas);
       return renderer;
     } catch {
@@ -43,7 +45,7 @@ class Stage {
   }
 
   light() {
-    this.scene.add(new THREE.HemisphereLight("#ffffff", "#9aa3b0", 1.5));
+    this.scene.add(new THREE.HemisphereLight("#ffffff", linear("#9aa3b0"), 1.5));
     // Over the left shoulder of whoever looks, so that no side of the scene is ever dark.
     const sun = new THREE.DirectionalLight("#ffffff", 2.1);
     sun.position.set(-0.6, 1, 0.9);
@@ -143,9 +145,10 @@ class Stage {
     }));
   }
 
-  /** The panel under a place of the picture, and the place in it as the camera counts, -1 ... 1. */
-  panelAt(x, y) {
-    const [u, v] = [x / this.element.clientWidth, y / this.element.clientHeight];
+  /** The panel under the pointer, and the pointer's normalised device coordinates in it, -1 ... 1. */
+  panelAt(event) {
+    const box = this.element.getBoundingClientRect();
+    const [u, v] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
     const panel = this.panels().find((p) => u >= p.x && u < p.x + p.width && v >= p.y && v < p.y + p.height);
     return panel && { panel, x: (2 * (u - panel.x)) / panel.width - 1, y: 1 - (2 * (v - panel.y)) / panel.height };
   }
@@ -159,8 +162,9 @@ class Stage {
 
   dress() {
     const style = getComputedStyle(document.documentElement);
+    // The only colour that is written to the picture unconverted.
     this.scene.background = new THREE.Color(style.getPropertyValue("--sky").trim());
-    for (const lines of this.gridLines) lines.material.color.set(style.getPropertyValue("--grid").trim());
+    for (const lines of this.gridLines) lines.material.color.copy(linear(style.getPropertyValue("--grid").trim()));
   }
 
   /** Planes that hold all there is, the near one as far out as can be: for the precision of the depths. */

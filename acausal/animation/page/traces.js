@@ -19,7 +19,7 @@ class Traces {
     past.setAttribute("position", geometry.attributes.position);
     const colour = GHOST[(this.list.length + 1) % GHOST.length];
     const lines = [[geometry, 0.3], [past, 1]].map(([one, opacity]) => {
-      const material = new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity });
+      const material = new THREE.LineBasicMaterial({ color: linear(colour), transparent: true, opacity });
       const line = new THREE.Line(one, material);
       line.frustumCulled = false;
       run.group.add(line);

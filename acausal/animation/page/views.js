@@ -6,14 +6,16 @@ class Views {
   constructor(stage, changed) {
     this.stage = stage;
     this.followed = null;
-    this.controls = new THREE.OrbitControls(stage.camera, $("glass"));
-    this.controls.zoomToCursor = true;
-    this.controls.screenSpacePanning = true;
-    this.controls.addEventListener("change", () => {
+    const glass = $("glass");
+    // Registered before OrbitControls, whose own wheel zooms to the middle of the picture.
+    glass.addEventListener("wheel", (event) => this.zoom(event), { passive: false });
+    this.controls = new THREE.OrbitControls(stage.camera, glass);
+    this.moved = () => {
       stage.target = this.controls.target.toArray();
       this.name = null;
       changed();
-    });
+    };
+    this.controls.addEventListener("change", this.moved);
   }
 
   /** The direction from the scene to the camera, and what is up in the picture. */
@@ -44,6 +46,26 @@ class Views {
   /** The whole scene from the present side. */
   fit() {
     this.place(unit(minus(this.stage.camera.position.toArray(), this.controls.target.toArray()), [0, 0, 1]));
+  }
+
+  /** Zoom with the wheel: what is under the pointer stays there. */
+  zoom(event) {
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    const { camera } = this.stage;
+    const { target } = this.controls;
+    const spot = this.stage.panelAt(event);
+    if (!spot) return;
+    // 5 % for 100 pixels; a wheel may count lines or pages, and a pinch on a touch pad counts a tenth of the pixels.
+    const pixels = event.deltaY * [1, 16, 100][event.deltaMode] * (event.ctrlKey ? 10 : 1);
+    const scale = 0.95 ** (-pixels / 100);
+    camera.updateMatrixWorld(); // several events may come between two pictures
+    const distance = camera.position.distanceTo(target);
+    const ray = new THREE.Vector3(spot.x, spot.y, 0).unproject(camera).sub(camera.position).normalize();
+    camera.position.addScaledVector(ray, distance * (1 - scale));
+    camera.getWorldDirection(target).multiplyScalar(distance * scale).add(camera.position);
+    this.controls.update();
+    this.moved();
   }
 
   place(direction) {

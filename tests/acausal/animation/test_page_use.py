@@ -5,11 +5,13 @@ from __future__ import annotations
 import subprocess
 import time
 from html import escape
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 
 from acausal.animation.page import html
 from tests.acausal.animation.browser import Browser, installed
@@ -267,6 +269,16 @@ def test_an_output_may_have_no_value_for_a_while(show: Show) -> None:
     assert not [x for x in blue if 0.26 < x < 0.74]
 
 
+def test_colours_of_the_picture(show: Show, run: dict) -> None:
+    browser = show(document(run), "#t=0.3&view=front&grid=0")
+    browser.run(PAINTED)
+    picture = (255 * imread(BytesIO(browser.picture()))[..., :3]).round().astype(int)
+    colours = {tuple(colour) for colour in picture.reshape(-1, 3)}
+    assert {(0xEE, 0xF2, 0xF7), (0xE5, 0x48, 0x4D)} <= colours  # the sky and the x axis, which no light changes
+    x, y = place_of(browser, 3)
+    assert picture[int(y), int(x)] == pytest.approx((33, 151, 112), abs=2)  # the ball, lit by the sky and the sun
+
+
 def test_colours_of_values(show: Show, run: dict) -> None:
     browser = show(document(run), "#t=0&colour=bending%20moment")
     colours = "((item) => [...item.tube.color].slice(0, 3))(acausal.viewer.runs[0].items[10])"
@@ -368,8 +380,10 @@ def test_drag_turns_and_wheel_comes_nearer(show: Show, run: dict) -> None:
     browser.mouse("mouseReleased", 300, 220, button="left", clickCount=1)
     assert np.abs(np.subtract(browser.run(place), before)).max() > 0.1 * far
     assert browser.run(distance) == pytest.approx(far)
-    browser.mouse("mouseWheel", 360, 200, deltaX=0, deltaY=-300)
+    ball = place_of(browser, 3)
+    browser.mouse("mouseWheel", *ball, deltaX=0, deltaY=-300)
     until(browser, f"{distance} < {0.9 * far}")
+    assert place_of(browser, 3) == pytest.approx(ball, abs=0.5)  # what is under the pointer stays there
     browser.key("0", "0")
     assert browser.run(distance) > 0.9 * far
     assert not browser.run("acausal.viewer.chosen")  # a drag is no click
