@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.animation import geometry as g
 from acausal.animation.collect import Seen, called, collect
-from acausal.animation.gaps import without_gaps
+from acausal.animation.missing_frames import fill_missing_frames
 from acausal.animation.reading import Evaluate, read
 from acausal.animation.rests import untorn
 from acausal.animation.sound import check
@@ -156,7 +156,7 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
     found, scalars = read(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
     for one in found:
         check(one)
-    found = untorn(without_gaps(found, run.time))
+    found = untorn(fill_missing_frames(found, run.time))
     boxes = [box for box in (_box(one.shape) for one in found) if box is not None]
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)

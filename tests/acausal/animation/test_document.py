@@ -302,7 +302,7 @@ def test_values_that_are_no_numbers_are_bridged_and_told() -> None:
         geometry.Span((0, 0, 0), (1, 0, 0)),
         lambda m: geometry.Sphere(geometry.Pose((sqrt(-1 - m.x * 0), 0, 0), np.eye(3))),
     )
-    with pytest.warns(ac.AcausalWarning, match=r"the Sphere of the model \(Own\) is left out"):
+    with pytest.warns(ac.AcausalWarning, match=r"the Sphere of the model \(Own\) is not drawn"):
         assert [s["kind"] for s in made(result)["shapes"]] == ["span"]
 
 

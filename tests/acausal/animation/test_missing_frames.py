@@ -1,4 +1,4 @@
-"""A shape whose place is not finite at some times is drawn with a warning of part and time; one that fails is named."""
+"""Shapes with a position that is not finite at some times are drawn with a warning; shapes() that fails is located."""
 
 from __future__ import annotations
 
@@ -58,11 +58,11 @@ ONE = 1 + 1e-30 * LATE
         (lambda p: geometry.Box(p, (0, LATE, 0), (1, 1, 1)), r"Box of bob_ \(Odd\) .* 10 of 21 .* t = 0\.55 s"),
         (
             lambda p: geometry.Sphere(geometry.Pose(p.r + as_expr((LATE, 0, 0)), p.T), diameter=0.1),
-            r"place of the Sphere of bob_ \(Odd\) .* the first at t = 0\.55 s",
+            r"position of the Sphere of bob_ \(Odd\) .* the first at t = 0\.55 s",
         ),
         (
             lambda p: geometry.Span(p.r, p.r + as_expr((LATE, 0, 0))),
-            r"place of the Span of bob_ \(Odd\) .* t = 0\.55 s",
+            r"position of the Span of bob_ \(Odd\) .* t = 0\.55 s",
         ),
         (
             lambda p: geometry.Cylinder(p, (0, 0, 0), (ONE, 0, 0), 0.1),
@@ -109,9 +109,9 @@ def fails_later(p):
 @pytest.mark.parametrize(
     ("look", "says"),
     [
-        (fails, r"bob_ \(Odd\), .*test_gaps\.py:\d+: shapes\(\) fails: ZeroDivisionError: division by zero"),
-        (lambda p: p.absent, r"bob_ \(Odd\), .*test_gaps\.py:\d+: shapes\(\) fails: AttributeError"),
-        (fails_later, r"bob_ \(Odd\), .*test_gaps\.py:\d+: shapes\(\) fails: IndexError"),
+        (fails, r"bob_ \(Odd\), .*test_missing_frames\.py:\d+: shapes\(\) fails: ZeroDivisionError: division by zero"),
+        (lambda p: p.absent, r"bob_ \(Odd\), .*test_missing_frames\.py:\d+: shapes\(\) fails: AttributeError"),
+        (fails_later, r"bob_ \(Odd\), .*test_missing_frames\.py:\d+: shapes\(\) fails: IndexError"),
     ],
 )
 def test_a_shape_that_fails_is_named_with_its_line(tmp_path, look, says):
