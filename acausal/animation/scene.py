@@ -11,9 +11,9 @@ import numpy as np
 
 from acausal.animation import geometry as g
 from acausal.animation.collect import Seen, called, collect
+from acausal.animation.deformation_reference import with_references
 from acausal.animation.missing_frames import fill_missing_frames
 from acausal.animation.reading import Evaluate, read
-from acausal.animation.rests import untorn
 from acausal.animation.sound import check
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
@@ -156,7 +156,7 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
     found, scalars = read(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
     for one in found:
         check(one)
-    found = untorn(fill_missing_frames(found, run.time))
+    found = with_references(fill_missing_frames(found, run.time))
     boxes = [box for box in (_box(one.shape) for one in found) if box is not None]
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)
