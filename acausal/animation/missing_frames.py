@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal.animation.collect import Seen
-from acausal.animation.reading import MOVING, not_finite
+from acausal.animation.evaluation import MOVING, not_finite
 from acausal.errors import caution
 
 

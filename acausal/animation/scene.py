@@ -12,9 +12,9 @@ import numpy as np
 from acausal.animation import geometry as g
 from acausal.animation.collect import Seen, called, collect
 from acausal.animation.deformation_reference import with_references
+from acausal.animation.evaluation import Evaluate, evaluate_shapes
 from acausal.animation.missing_frames import fill_missing_frames
-from acausal.animation.reading import Evaluate, read
-from acausal.animation.sound import check
+from acausal.animation.validation import check_shape
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 
@@ -153,9 +153,9 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
     seen : sequence of Seen
         What `shown` returned for its tree.
     """
-    found, scalars = read(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
+    found, scalars = evaluate_shapes(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
     for one in found:
-        check(one)
+        check_shape(one)
     found = with_references(fill_missing_frames(found, run.time))
     boxes = [box for box in (_box(one.shape) for one in found) if box is not None]
     low = np.min([box[0] for box in boxes], axis=0)
