@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen
+from acausal.animation.collect import PartShape
 
 # Points coincide if they are nearer than this fraction of the distance from the origin (round-off of positions) plus this
 # fraction of the chord (tolerance of the run).
@@ -17,7 +17,7 @@ ROUND_OFF = 1e-12
 COINCIDENT = 1e-7
 
 
-def with_references(seen: Sequence[Seen]) -> list[Seen]:
+def with_references(seen: Sequence[PartShape]) -> list[PartShape]:
     """Return shapes in which curves with another shape at their far end take the chord as their reference.
 
     Only the deformation of the curve is exaggerated. A joint, body or curve at its far end is drawn at its true position, so
@@ -26,7 +26,7 @@ def with_references(seen: Sequence[Seen]) -> list[Seen]:
     return [replace(one, shape=replace(one.shape, rest=None)) if _is_loaded(one, seen) else one for one in seen]
 
 
-def _is_loaded(one: Seen, seen: Sequence[Seen]) -> bool:
+def _is_loaded(one: PartShape, seen: Sequence[PartShape]) -> bool:
     """Return whether another shape is attached to the far end of a curve."""
     curve = one.shape
     if not isinstance(curve, g.Curve) or curve.rest is None or curve.points.shape[1] < 2:

@@ -9,10 +9,10 @@ from urllib.parse import urlencode
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen
-from acausal.animation.columns import Columns, blob
-from acausal.animation.rotations import quaternions, turns
-from acausal.animation.scene import ALL, Run, Scene, fractions, scene_of, shown
+from acausal.animation.collect import PartShape
+from acausal.animation.columns import Columns, encode
+from acausal.animation.rotations import quaternions, rotation_angles
+from acausal.animation.scene import ALL, Run, Scene, chord_fractions, scene_of, shapes_of
 from acausal.errors import DeclarationError, caution
 
 VERSION = 1
@@ -49,18 +49,18 @@ def document(
     DeclarationError
         If a run has nothing to be seen, no such values, or an entry of a shape that is none.
     """
-    return written(scenes(runs, values), values, title, deformation)
+    return document_of(scenes(runs, values), values, title, deformation)
 
 
 def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Scene]:
     """Return runs in numbers, with the sizes that suit the largest."""
-    seen = shown([run.tree for run in runs.values()], values)
+    seen = shapes_of([run.tree for run in runs.values()], values)
     found = {name: scene_of(run, own) for (name, run), own in zip(runs.items(), seen, strict=True)}
     size = max(scene.size for scene in found.values())
-    return {name: scene.suited(size) for name, scene in found.items()}
+    return {name: scene.with_default_sizes(size) for name, scene in found.items()}
 
 
-def written(
+def document_of(
     found: Mapping[str, Scene], values: Sequence[str] = (), title: str = "", deformation: float = 1.0
 ) -> dict[str, Any]:
     """Return the document of some scenes, which begins with the first of the values that were asked for."""
@@ -90,7 +90,7 @@ class _Writer:
         scene, run = self.scene, self.scene.run
         parts: dict[tuple[str, str], int] = {}
         shapes = []
-        for one in scene.seen:
+        for one in scene.shapes:
             part = parts.setdefault((one.path, one.kind), len(parts))
             kind = type(one.shape)
             shapes.append({"kind": kind.__name__.lower(), "part": part, "color": None} | WRITE[kind](self, one))
@@ -99,11 +99,11 @@ class _Writer:
                 f"{self.fastest[1] or 'the model'} turns by up to {self.fastest[0]:.2g} rad from one frame to the next, and the "
                 "picture takes the shortest way between them: show more frames, or simulate with more intervals."
             )
-        return self.columns.closed(
+        return self.columns.resolve(
             {
                 "name": self.name,
                 "stopped": run.stopped,
-                "time": blob(np.asarray(run.time, dtype="<f8")),
+                "time": encode(np.asarray(run.time, dtype="<f8")),
                 "poses": self.poses,
                 "parts": [{"path": path, "type": kind} for path, kind in parts],
                 "shapes": shapes,
@@ -114,7 +114,7 @@ class _Writer:
             }
         )
 
-    def pose(self, pose: g.Pose, of: Seen) -> int:
+    def pose(self, pose: g.Pose, of: PartShape) -> int:
         """Return the place of a pose; equal ones are one."""
         if id(pose) not in self._by_id:
             try:
@@ -124,7 +124,7 @@ class _Writer:
                     f"T of a Pose of {of.path or 'the model'} ({of.kind}) is no rotation matrix."
                 ) from None
             if len(q) > 1:
-                between = turns(q)[np.diff(self.scene.run.time) > 0]
+                between = rotation_angles(q)[np.diff(self.scene.run.time) > 0]
                 self.fastest = max(self.fastest, (float(np.max(between, initial=0)), of.path))
             q[np.abs(q) < NOTHING] = 0
             found = {"r": self.places(pose.r), "q": self.columns.add(q)}
@@ -143,45 +143,45 @@ class _Writer:
         finite = values[np.isfinite(values)]
         return self.columns.add(values, float(np.ptp(finite)) if finite.size else 0.0)
 
-    def ground(self, one: Seen) -> dict[str, Any]:
+    def ground(self, one: PartShape) -> dict[str, Any]:
         """It is the same in all scenes."""
         return {}
 
-    def box(self, one: Seen) -> dict[str, Any]:
+    def box(self, one: PartShape) -> dict[str, Any]:
         """Numbers in a pose."""
         s = one.shape
         return self._rigid(one, center=s.center, axes=s.axes, size=s.size)
 
-    def cylinder(self, one: Seen) -> dict[str, Any]:
+    def cylinder(self, one: PartShape) -> dict[str, Any]:
         """Its ends have other names, as `end` says nothing of where it is."""
         s = one.shape
         return self._rigid(one, diameter=s.diameter) | {"from": _plain(s.start), "to": _plain(s.end)}
 
-    def sphere(self, one: Seen) -> dict[str, Any]:
+    def sphere(self, one: PartShape) -> dict[str, Any]:
         """Numbers in a pose."""
         return self._rigid(one, center=one.shape.center, diameter=one.shape.diameter)
 
-    def axle(self, one: Seen) -> dict[str, Any]:
+    def axle(self, one: PartShape) -> dict[str, Any]:
         """Its axis has length 1."""
         s = one.shape
         axis = s.axis / np.linalg.norm(s.axis)
         return self._rigid(one, center=np.zeros(3), axis=axis, length=s.length, diameter=s.diameter)
 
-    def span(self, one: Seen) -> dict[str, Any]:
+    def span(self, one: PartShape) -> dict[str, Any]:
         """Between columns."""
         s = one.shape
         return {"a": self.places(s.start), "b": self.places(s.end), "style": s.style, "diameter": float(s.diameter)}
 
-    def arrow(self, one: Seen) -> dict[str, Any]:
+    def arrow(self, one: PartShape) -> dict[str, Any]:
         """Its length is not that of the vector: the page chooses a scale."""
         s = one.shape
         unit = "N" if s.quantity == "force" else "N.m"
         return {"at": self.places(s.at), "vector": self.columns.add(s.vector), "quantity": s.quantity, "unit": unit}
 
-    def curve(self, one: Seen) -> dict[str, Any]:
+    def curve(self, one: PartShape) -> dict[str, Any]:
         """What it is deformed from is a chord, or points in a pose."""
         s = one.shape
-        rest: dict[str, Any] = {"chord": True, "fractions": fractions(s)}
+        rest: dict[str, Any] = {"chord": True, "fractions": chord_fractions(s)}
         if s.rest is not None:
             if s.rest_points is None or s.rest_points.shape != s.points.shape[1:]:
                 raise DeclarationError(
@@ -197,21 +197,21 @@ class _Writer:
             "values": [{"name": v.name, "unit": v.unit, "columns": self.columns.add(v.entries)} for v in s.values],
         }
 
-    def mesh(self, one: Seen) -> dict[str, Any]:
+    def mesh(self, one: PartShape) -> dict[str, Any]:
         """Its numbers are in a pose."""
         s = one.shape
         return self._rigid(one) | {
-            "vertices": blob(np.asarray(s.vertices, dtype="<f4")),
-            "triangles": blob(np.asarray(s.triangles, dtype="<u4")),
-            "modes": blob(np.asarray(s.modes, dtype="<f4")) if s.q is not None else None,
+            "vertices": encode(np.asarray(s.vertices, dtype="<f4")),
+            "triangles": encode(np.asarray(s.triangles, dtype="<u4")),
+            "modes": encode(np.asarray(s.modes, dtype="<f4")) if s.q is not None else None,
             "q": self.columns.add(s.q) if s.q is not None else [],
         }
 
-    def _rigid(self, one: Seen, **fields: Any) -> dict[str, Any]:
+    def _rigid(self, one: PartShape, **fields: Any) -> dict[str, Any]:
         return {"pose": self.pose(one.shape.pose, one)} | {name: _plain(value) for name, value in fields.items()}
 
 
-WRITE: dict[type, Callable[[_Writer, Seen], dict[str, Any]]] = {
+WRITE: dict[type, Callable[[_Writer, PartShape], dict[str, Any]]] = {
     g.Ground: _Writer.ground,
     g.Box: _Writer.box,
     g.Cylinder: _Writer.cylinder,

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.camera import Camera, level
-from acausal.animation.scene import Scene, corners, fractions, placed
+from acausal.animation.camera import Camera, horizontal
+from acausal.animation.scene import Scene, chord_fractions, corners, in_world
 
 PALETTE = ("#3b6fd1", "#e08a3c", "#2a9d78", "#d6556b", "#a05fc9", "#3aa7b5", "#a58b2d", "#7d6ee0")
 DARK, ROD, COIL = "#4a5260", "#8a93a3", "#b9772a"
@@ -61,7 +61,7 @@ class Drawing:
         self.scene, self.view, self.colours, self.by = scene, view, colours, by
         self.deformation = deformation
         paths = dict.fromkeys(
-            one.path for one in scene.seen if isinstance(one.shape, g.Box | g.Cylinder | g.Sphere | g.Curve | g.Mesh)
+            one.path for one in scene.shapes if isinstance(one.shape, g.Box | g.Cylinder | g.Sphere | g.Curve | g.Mesh)
         )
         self.colour = {path: rgb(PALETTE[k % len(PALETTE)]) for k, path in enumerate(paths)}
         self.longest = {kind: self._longest(kind) for kind in ARROWS}
@@ -69,7 +69,7 @@ class Drawing:
     def _longest(self, kind: str) -> float:
         lengths = [
             float(np.max(np.linalg.norm(one.shape.vector, axis=1)))
-            for one in self.scene.seen
+            for one in self.scene.shapes
             if isinstance(one.shape, g.Arrow) and one.shape.quantity == kind
         ]
         return max(lengths, default=0.0)
@@ -77,17 +77,17 @@ class Drawing:
     def frame(self, k: int) -> list[Polygon]:
         """Return what is seen at the frame k, the ground aside."""
         found = [
-            p for one in self.scene.seen for p in DRAW[type(one.shape)](self, one.shape, k, self.colour.get(one.path))
+            p for one in self.scene.shapes for p in DRAW[type(one.shape)](self, one.shape, k, self.colour.get(one.path))
         ]
         return sorted(found, key=lambda polygon: polygon.depth)
 
     def grid(self) -> Pieces:
         """Lines on the ground, as low as the scene hangs; none where there is no ground."""
         scene = self.scene
-        if not any(isinstance(one.shape, g.Ground) for one in scene.seen):
+        if not any(isinstance(one.shape, g.Ground) for one in scene.shapes):
             return
         low = min(0.0, float(np.min(corners(scene.low, scene.high) @ scene.up)))
-        first = level(scene.up)
+        first = horizontal(scene.up)
         sides = np.array([first, np.cross(scene.up, first)])
         middle = (scene.low + scene.high) / 2
         middle = middle - (middle @ scene.up - low) * scene.up
@@ -100,7 +100,7 @@ class Drawing:
 
     def strip(self, points: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
         """A line of some width through points of the world; `colour` (3,), or (n - 1, 3) along it."""
-        seen = self.view.seen(points)
+        seen = self.view.project(points)
         steps = np.diff(seen, axis=0)
         length = np.linalg.norm(steps[:, :2], axis=1)
         colours = np.broadcast_to(colour, (len(steps), 3))
@@ -123,12 +123,12 @@ class Drawing:
 
     def disc(self, center: np.ndarray, radius: float, colour: np.ndarray) -> Polygon:
         """A circle that faces the eye."""
-        seen = self.view.seen(center)
+        seen = self.view.project(center)
         return Polygon(seen[:2] + radius * _circle(), float(seen[2]), colour)
 
     def faces(self, points: np.ndarray, faces: Any, colour: np.ndarray) -> Pieces:
         """Faces of a solid, (n, m) places of points of the world, outward anticlockwise; those that look away are left out."""
-        seen = self.view.seen(points)
+        seen = self.view.project(points)
         at = points[faces]
         normals = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
         size = np.linalg.norm(normals, axis=1)
@@ -192,7 +192,7 @@ class Drawing:
         """A shaft and a head; its length is that part of the longest one."""
         longest = self.longest[s.quantity]
         vector = s.vector[k] * (ARROW * self.scene.size / longest if longest else 0)
-        at, tip = self.view.seen(np.array([s.at[k], s.at[k] + vector]))
+        at, tip = self.view.project(np.array([s.at[k], s.at[k] + vector]))
         way = (tip - at)[:2]
         length, head = float(np.linalg.norm(way)), 0.03 * self.scene.size
         if length > 0:
@@ -225,7 +225,7 @@ class Drawing:
         if s.rest is not None:
             return _at(s.rest, s.rest_points, k)
         first, last = s.points[k, 0], s.points[k, -1]
-        return first + np.array(fractions(s))[:, None] * (last - first)
+        return first + np.array(chord_fractions(s))[:, None] * (last - first)
 
     def mesh(self, s: g.Mesh, k: int, colour: np.ndarray) -> Pieces:
         """Its triangles, deformed."""
@@ -259,4 +259,4 @@ def _circle() -> np.ndarray:
 
 
 def _at(pose: g.Pose, points: Any, k: int) -> np.ndarray:
-    return placed(g.Pose(pose.r[k : k + 1], pose.T[k : k + 1]), points)[0]
+    return in_world(g.Pose(pose.r[k : k + 1], pose.T[k : k + 1]), points)[0]

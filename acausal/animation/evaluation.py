@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen
+from acausal.animation.collect import PartShape
 from acausal.errors import DeclarationError, caution
 from acausal.language.expression import as_expr
 from acausal.symbols import dense, stacked, vec
@@ -41,15 +41,15 @@ CONSTANT = 1e-9
 
 
 def evaluate_shapes(
-    seen: Sequence[Seen], more: Iterable[Any], evaluate: Evaluate, time: np.ndarray
-) -> tuple[list[Seen], list[np.ndarray]]:
+    seen: Sequence[PartShape], more: Iterable[Any], evaluate: Evaluate, time: np.ndarray
+) -> tuple[list[PartShape], list[np.ndarray]]:
     """Return the shapes with arrays in place of expressions, and further scalars over time.
 
     Arrays that vary with time have the shape (times, ...). None stays None, but becomes NaN in a section.
 
     Parameters
     ----------
-    seen : sequence of Seen
+    seen : sequence of PartShape
         From `collect`, with the entries of all `Values` evaluated.
     more : iterable of casadi.SX, shape (1, 1)
         Further scalars.
@@ -73,7 +73,7 @@ def evaluate_shapes(
     ]
 
 
-def _mapped(shape: Any, owner: Seen, visitor: Any) -> Any:
+def _mapped(shape: Any, owner: PartShape, visitor: Any) -> Any:
     """Return a shape with `visitor` applied to its fields, always in the same order."""
     known = visitor.poses.get(id(shape)) if isinstance(shape, g.Pose) else None
     if known is not None:
@@ -99,7 +99,7 @@ def _mapped(shape: Any, owner: Seen, visitor: Any) -> Any:
     return made
 
 
-def _path(seen: Seen) -> str:
+def _path(seen: PartShape) -> str:
     return f"{seen.path or 'the model'} ({seen.kind})"
 
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from acausal.animation.collect import Seen
+from acausal.animation.collect import PartShape
 from acausal.animation.evaluation import MOVING, not_finite
 from acausal.errors import caution
 
 
-def fill_missing_frames(seen: Sequence[Seen], time: np.ndarray) -> list[Seen]:
+def fill_missing_frames(seen: Sequence[PartShape], time: np.ndarray) -> list[PartShape]:
     """Return shapes with finite values: others are interpolated linearly in time, with a warning.
 
     A shape with a value that is never finite is omitted.
@@ -39,7 +39,7 @@ def fill_missing_frames(seen: Sequence[Seen], time: np.ndarray) -> list[Seen]:
     return finite_shapes
 
 
-def _named(seen: Iterable[Seen]) -> str:
+def _named(seen: Iterable[PartShape]) -> str:
     """Name the first shape and count the others."""
     first, *more = seen
     others = f" and of {len(more)} other shape{'s' * (len(more) > 1)}" if more else ""

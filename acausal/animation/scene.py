@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen, called, collect
+from acausal.animation.collect import PartShape, call_user_code, collect
 from acausal.animation.deformation_reference import with_references
 from acausal.animation.evaluation import Evaluate, evaluate_shapes
 from acausal.animation.missing_frames import fill_missing_frames
@@ -73,7 +73,7 @@ class Scene:
     ----------
     run : Run
         Where they come from.
-    seen : list of Seen
+    seen : list of PartShape
         Shapes with arrays in place of expressions.
     plots : list of Plot
         With values.
@@ -87,19 +87,21 @@ class Scene:
     """
 
     run: Run
-    seen: list[Seen]
+    shapes: list[PartShape]
     plots: list[Plot]
     low: np.ndarray
     high: np.ndarray
     size: float
     up: np.ndarray
 
-    def suited(self, size: float) -> Scene:
+    def with_default_sizes(self, size: float) -> Scene:
         """Return the scene with the sizes that were open, as suits an extent in m."""
-        return replace(self, size=size, seen=[replace(one, shape=_suited(one.shape, size)) for one in self.seen])
+        return replace(
+            self, size=size, shapes=[replace(one, shape=_with_default_sizes(one.shape, size)) for one in self.shapes]
+        )
 
 
-def shown(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[Seen]]:
+def shapes_of(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[PartShape]]:
     """Return the shapes of models, with those of the values along curves that were asked for or cost nothing.
 
     Parameters
@@ -129,7 +131,10 @@ def shown(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[S
             f'there are no values "{missing[0]}" along the curves that are shown; there are: {there}.'
         )
     return [
-        [replace(one, shape=called(partial(_with_values, one.shape, values), one.path, one.kind)) for one in seen]
+        [
+            replace(one, shape=call_user_code(partial(_with_values, one.shape, values), one.path, one.kind))
+            for one in seen
+        ]
         for seen in found
     ]
 
@@ -143,15 +148,15 @@ def _with_values(shape: Any, names: Sequence[str]) -> Any:
     )
 
 
-def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
+def scene_of(run: Run, seen: Sequence[PartShape]) -> Scene:
     """Evaluate a run and measure it.
 
     Parameters
     ----------
     run : Run
         With one time or more.
-    seen : sequence of Seen
-        What `shown` returned for its tree.
+    seen : sequence of PartShape
+        What `shapes_of` returned for its tree.
     """
     found, scalars = evaluate_shapes(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
     for one in found:
@@ -172,7 +177,7 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
 
 def _box(shape: Any) -> tuple[np.ndarray, np.ndarray] | None:
     """Return the corners, shape (times, 3) each, of what a shape fills."""
-    points = extremes(shape)
+    points = bounding_points(shape)
     if points is None:
         return None
     diameter = getattr(shape, "diameter", None)
@@ -180,7 +185,7 @@ def _box(shape: Any) -> tuple[np.ndarray, np.ndarray] | None:
     return points.min(axis=1) - margin, points.max(axis=1) + margin
 
 
-def extremes(shape: Any) -> np.ndarray | None:
+def bounding_points(shape: Any) -> np.ndarray | None:
     """Return points that hold a shape between them, shape (times, points, 3), in the world; None of what fills no room."""
     if isinstance(shape, g.Curve):
         return shape.points
@@ -189,10 +194,10 @@ def extremes(shape: Any) -> np.ndarray | None:
     if isinstance(shape, g.Arrow):
         return shape.at[:, None]
     local = _LOCAL.get(type(shape))
-    return None if local is None else placed(shape.pose, local(shape))
+    return None if local is None else in_world(shape.pose, local(shape))
 
 
-def placed(pose: g.Pose, points: np.ndarray) -> np.ndarray:
+def in_world(pose: g.Pose, points: np.ndarray) -> np.ndarray:
     """Return points of a pose, (points, 3), in the world: shape (times, points, 3)."""
     return pose.r[:, None] + np.asarray(points, dtype=float) @ pose.T
 
@@ -216,7 +221,7 @@ _LOCAL: dict[type, Callable[[Any], np.ndarray]] = {
 }
 
 
-def _suited(shape: Any, size: float) -> Any:
+def _with_default_sizes(shape: Any, size: float) -> Any:
     """Fill in the sizes that are open."""
     more: dict[str, Any] = {}
     if isinstance(shape, g.Curve):
@@ -224,7 +229,7 @@ def _suited(shape: Any, size: float) -> Any:
         other = np.nanmax(section) if np.isfinite(section).any() else TUBE * size
         more["section"] = np.where(np.isfinite(section), section, other)
         if shape.tangents is None:
-            more["tangents"] = smooth(shape.points)
+            more["tangents"] = smooth_tangents(shape.points)
     elif hasattr(shape, "diameter"):
         usual = SPAN[shape.style] if isinstance(shape, g.Span) else DIAMETER[type(shape)]
         more["diameter"] = usual * size if shape.diameter is None else float(shape.diameter)
@@ -233,7 +238,7 @@ def _suited(shape: Any, size: float) -> Any:
     return replace(shape, **more)
 
 
-def smooth(points: np.ndarray) -> np.ndarray:
+def smooth_tangents(points: np.ndarray) -> np.ndarray:
     """Return tangents of a smooth curve through points, shape (times, n, 3): differences of second order.
 
     Of the parameter that grows by 1 from each point to the next; within, these are the tangents of Catmull and Rom.
@@ -243,7 +248,7 @@ def smooth(points: np.ndarray) -> np.ndarray:
     return np.gradient(points, axis=1, edge_order=min(points.shape[1] - 1, 2))
 
 
-def fractions(curve: g.Curve) -> list[float]:
+def chord_fractions(curve: g.Curve) -> list[float]:
     """Return where the points of a curve are along its chord, undeformed, from 0 to 1."""
     if curve.rest_points is not None:
         way = np.linalg.norm(curve.rest_points - curve.rest_points[0], axis=1)

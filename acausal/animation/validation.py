@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen
+from acausal.animation.collect import PartShape
 from acausal.errors import DeclarationError
 
 ORTHONORMAL = 1e-6  # largest error of products of unit vectors: rounding, and vectors typed with six or more digits
 
 
-def check_shape(one: Seen) -> None:
+def check_shape(one: PartShape) -> None:
     """Refuse a shape that cannot be drawn.
 
     Raises

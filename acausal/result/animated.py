@@ -10,10 +10,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from acausal.animation.document import scenes, written
-from acausal.animation.frames import FRAMES, thinned
+from acausal.animation.document import document_of, scenes
+from acausal.animation.frames import FRAMES, select_frames
 from acausal.animation.page import html
-from acausal.animation.scene import Plot, Run, shown
+from acausal.animation.scene import Plot, Run, shapes_of
 from acausal.errors import AcausalError, DeclarationError, ExportError
 from acausal.language.component import Component
 from acausal.language.values import shown as code
@@ -77,7 +77,7 @@ def write(results: Mapping[str, Moving], path: str | Path, asked: Asked) -> None
     found = scenes({name: run_of(result, asked) for name, result in results.items()}, asked.values)
     if _ending(path) in PAGES:
         with whole(path) as file:
-            file.write(html(written(found, asked.values, title, asked.deformation)))
+            file.write(html(document_of(found, asked.values, title, asked.deformation)))
         return
     from acausal.result.films import film, still
 
@@ -113,7 +113,7 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
         Which names what there is.
     """
     if isinstance(tree, Component):
-        shown([tree], values)
+        shapes_of([tree], values)
 
 
 def in_notebook(result: Moving) -> str | None:
@@ -125,7 +125,7 @@ def in_notebook(result: Moving) -> str | None:
         Where there is nothing to be seen, None is returned: the notebook shows its text instead.
     """
     try:
-        page = html(written(scenes({result.title: run_of(result)})))
+        page = html(document_of(scenes({result.title: run_of(result)})))
     except AcausalError:
         return None
     return (
@@ -150,7 +150,7 @@ def run_of(result: Moving, asked: Asked = DEFAULT) -> Run:
         )
     if not result.time.size:
         raise DeclarationError(f"{result!r} is empty: there is no time at which something could be seen.")
-    places = thinned(result.time, asked.frames)
+    places = select_frames(result.time, asked.frames)
     quantities = [find(tree, key) for key in asked.plots or result.outputs]
     plots = [Plot(name, unit, q[index].column) for q in quantities for index, name, unit in q.entries]
     title, stopped = result.title or type(tree).__name__, result.stats.get("stopped")

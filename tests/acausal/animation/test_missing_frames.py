@@ -13,7 +13,7 @@ import pytest
 import acausal as ac
 from acausal import Model, as_expr, chain, fixed, geometry, sqrt, time
 from acausal.animation.document import document
-from acausal.animation.scene import scene_of, shown
+from acausal.animation.scene import scene_of, shapes_of
 from acausal.result.animated import run_of
 from components import Body, Revolute, World
 from components.frame import pose
@@ -85,7 +85,7 @@ def test_a_center_that_moves_is_where_it_says():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         run = run_of(result)
-        sphere = next(one.shape for one in scene_of(run, shown([run.tree])[0]).seen if one.path == "bob_")
+        sphere = next(one.shape for one in scene_of(run, shapes_of([run.tree])[0]).shapes if one.path == "bob_")
     phi, t = result["joint.phi"], result.time
     along, aside = 0.5 - 0.2 * t, 0.1
     x, y = along * np.cos(phi) - aside * np.sin(phi), along * np.sin(phi) + aside * np.cos(phi)
