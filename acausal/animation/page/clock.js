@@ -9,21 +9,21 @@ class Clock {
     this.t = this.first;
     this.playing = false;
     this.loop = true;
-    this.natural = this.suitable();
-    this.speed = this.natural;
+    this.defaultSpeed = this.chooseSpeed();
+    this.speed = this.defaultSpeed;
   }
 
   /** Real time where the run then lasts 4 to 12 s, else the round factor with which it lasts 5 to 10 s. */
-  suitable() {
+  chooseSpeed() {
     const duration = this.last - this.first;
     if (!(duration > 0) || (duration >= 4 && duration <= 12)) return 1;
     return roundDown(duration / 4.999);
   }
 
-  /** The next round factor; between 1/1000 and 100, or as far as the natural one is. */
+  /** The next round factor; between 1/1000 and 100, or as far as the defaultSpeed one is. */
   faster(sign) {
-    const low = Math.min(1e-3, this.natural);
-    const high = Math.max(100, this.natural);
+    const low = Math.min(1e-3, this.defaultSpeed);
+    const high = Math.max(100, this.defaultSpeed);
     const around = [1, 2, 5, 10].map((digit) => digit * 10 ** Math.floor(Math.log10(this.speed) + 1e-9));
     const steps = [around[2] / 10, ...around];
     const close = 1e-6 * this.speed;

@@ -82,7 +82,7 @@ class ColourScale {
     element.replaceChildren(
       make("div", { className: "bar-name", textContent: `${this.name} (${this.unit || "1"})` }),
       make("div", { className: "bar-strip" }),
-      make("div", { className: "bar-numbers" }, [this.low, middle, this.high].map((v) => make("span", { textContent: written(v, 3) }))),
+      make("div", { className: "bar-numbers" }, [this.low, middle, this.high].map((v) => make("span", { textContent: formatNumber(v, 3) }))),
     );
     element.children[1].style.background = `linear-gradient(to right, ${this.stops.join(", ")})`;
   }

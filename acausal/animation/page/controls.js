@@ -86,7 +86,7 @@ function connectControls(viewer) {
   press("play", () => (clock.playing ? clock.pause() : clock.play()));
   press("slower", () => clock.faster(-1));
   press("faster", () => clock.faster(1));
-  press("speed", () => clock.setSpeed(clock.natural));
+  press("speed", () => clock.setSpeed(clock.defaultSpeed));
   press("loop", () => viewer.loop(!clock.loop));
   press("record", () => viewer.recorder.toggle());
   press("dark", () => viewer.dark(!viewer.isDark()));
@@ -134,7 +134,7 @@ function showState(viewer) {
   const now = clock.t.toFixed(Math.min(digits, 9));
   $("time").setAttribute("aria-valuetext", `${now} seconds`);
   $("now").textContent = `${now} s`;
-  $("speed").textContent = `\u00d7${written(clock.speed, 3)}`;
+  $("speed").textContent = `\u00d7${formatNumber(clock.speed, 3)}`;
   pressed("loop", clock.loop);
   pressed("record", Boolean(viewer.recorder.media));
   pressed("follow", Boolean(viewer.views.followed));
@@ -144,5 +144,5 @@ function showState(viewer) {
   $("show-plots").checked = !$("plots").hidden;
   $("ghosts").checked = stage.ghosts;
   $("deformation").value = Math.log10(stage.deformation);
-  $("deformation-said").textContent = `\u00d7${written(stage.deformation, 3)}`;
+  $("deformation-value").textContent = `\u00d7${formatNumber(stage.deformation, 3)}`;
 }

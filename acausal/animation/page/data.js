@@ -55,8 +55,8 @@ class Columns {
     const before = i > 0 ? this.time[i] - this.time[i - 1] : 0;
     const after = i + 2 < this.frames ? this.time[i + 2] - this.time[i + 1] : 0;
     // Slopes times the span, as weights of the four frames.
-    let begin = before > 0 && parabola(before, span).map((w) => w * span);
-    let end = after > 0 && parabola(span, after).map((w) => w * span);
+    let begin = before > 0 && slopeWeights(before, span).map((w) => w * span);
+    let end = after > 0 && slopeWeights(span, after).map((w) => w * span);
     begin = begin && [...begin, 0];
     end = end && [0, ...end];
     const chord = [0, -1, 1, 0];
@@ -68,11 +68,11 @@ class Columns {
   }
 
   at(k) {
-    return this.difference(k) + (this.offsets.get(k) ?? 0); // the weights of the frames add up to 1
+    return this.stored(k) + (this.offsets.get(k) ?? 0); // the weights of the frames add up to 1
   }
 
   /** What is kept of a column in float32. */
-  difference(k) {
+  stored(k) {
     if (k >= this.varying) return this.data[this.varying * this.frames + (k - this.varying)];
     const place = k * this.frames + this.frame;
     const w = this.weights;
@@ -105,7 +105,7 @@ class Columns {
 }
 
 /** Weights of three values whose parabola gives the slope at the middle one; the steps are positive. */
-function parabola(before, after) {
+function slopeWeights(before, after) {
   const whole = before + after;
   return [-after / (before * whole), (after - before) / (before * after), before / (after * whole)];
 }

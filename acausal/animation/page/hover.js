@@ -9,7 +9,7 @@ class Hover {
     const element = $("glass");
     element.addEventListener("pointermove", (event) => {
       if (event.buttons) this.hide();
-      else this.later(event);
+      else this.schedule(event);
     });
     element.addEventListener("pointerleave", () => this.hide());
     element.addEventListener("pointerdown", (event) => (this.pressed = [event.clientX, event.clientY]));
@@ -21,14 +21,14 @@ class Hover {
   }
 
   /** One search a frame, however often the pointer tells. */
-  later(event) {
+  schedule(event) {
     const waiting = this.event;
     this.event = event;
     if (waiting) return;
     requestAnimationFrame(() => {
       const last = this.event;
       this.event = null;
-      if (last) this.tell(last);
+      if (last) this.showTip(last);
     });
   }
 
@@ -43,7 +43,7 @@ class Hover {
     return { run, index, part: run.run.shapes[index].part, point: plus(hit.point.toArray(), this.stage.origin) };
   }
 
-  tell(event) {
+  showTip(event) {
     const found = this.find(event);
     const part = found && found.run.parts[found.part];
     if (!part) {

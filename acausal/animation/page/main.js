@@ -24,15 +24,15 @@ async function start() {
   const viewer = new Viewer(content, stage, runs);
   viewer.choose("");
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) viewer.clock.play();
-  heedAddress(viewer, content.start || "");
-  heedAddress(viewer, location.hash);
-  addEventListener("hashchange", () => heedAddress(viewer, location.hash));
+  applyAddress(viewer, content.start || "");
+  applyAddress(viewer, location.hash);
+  addEventListener("hashchange", () => applyAddress(viewer, location.hash));
   Object.assign(window.acausal, {
     document: content,
     seek(t) {
       viewer.clock.pause();
       viewer.clock.seek(t);
-      viewer.settle();
+      viewer.update();
     },
     time: () => viewer.clock.t,
     play: () => viewer.clock.play(),

@@ -26,13 +26,13 @@ class Plots {
     }
     const groups = [];
     for (const { name, of, list } of outputs.values()) {
-      const [low, high] = this.reach(list);
-      const least = still(low, high) ? Infinity : high - low;
-      const joined = (one) => ({ low: Math.min(low, one.low), high: Math.max(high, one.high), least: Math.min(least, one.least) });
+      const [low, high] = this.extrema(list);
+      const least = isConstant(low, high) ? Infinity : high - low;
+      const merged = (one) => ({ low: Math.min(low, one.low), high: Math.max(high, one.high), least: Math.min(least, one.least) });
       const fits = ({ low, high, least }) => high - low < 20 * least;
-      let group = groups.find((one) => one.of === of && fits(joined(one)));
+      let group = groups.find((one) => one.of === of && fits(merged(one)));
       if (!group) groups.push((group = { of, low, high, least, outputs: new Map() }));
-      Object.assign(group, joined(group)).outputs.set(name, list);
+      Object.assign(group, merged(group)).outputs.set(name, list);
     }
     return groups;
   }
@@ -109,14 +109,14 @@ class Plots {
     const values = ticks(low, high, height / 24);
     for (const v of values) {
       stroke(ink, [[EDGE.left, Math.round(down(v)) + 0.5], [width - EDGE.right, Math.round(down(v)) + 0.5]]);
-      ink.fillText(marked(v, values), EDGE.left - 5, down(v));
+      ink.fillText(tickLabel(v, values), EDGE.left - 5, down(v));
     }
     ink.textAlign = "center";
     ink.textBaseline = "top";
     const moments = ticks(this.clock.first, this.clock.last, width / 70);
     for (const t of moments) {
       stroke(ink, [[Math.round(across(t)) + 0.5, EDGE.top], [Math.round(across(t)) + 0.5, floor]]);
-      ink.fillText(marked(t, moments), clamp(across(t), 12, width - 22), floor + 5);
+      ink.fillText(tickLabel(t, moments), clamp(across(t), 12, width - 22), floor + 5);
     }
     ink.textAlign = "left";
     ink.fillText("s", width - 9, floor + 5);
@@ -150,7 +150,7 @@ class Plots {
   }
 
   /** Least and greatest value of the shown curves. */
-  reach(curves) {
+  extrema(curves) {
     let [low, high] = [Infinity, -Infinity];
     for (const { run, column, shown } of curves) {
       if (!shown) continue;
@@ -164,9 +164,9 @@ class Plots {
 
   /** What the axis spans: the curves and a margin. */
   range(panel) {
-    const [low, high] = this.reach(panel.curves);
+    const [low, high] = this.extrema(panel.curves);
     if (!(low <= high)) return [0, 1];
-    const span = still(low, high) ? Math.abs(high) || 1 : high - low;
+    const span = isConstant(low, high) ? Math.abs(high) || 1 : high - low;
     return [low - 0.06 * span, high + 0.06 * span];
   }
 
@@ -176,13 +176,13 @@ class Plots {
     const part = (t - first) / (last - first || 1);
     for (const { curves, cursor, area } of this.panels) {
       cursor.style.transform = `translateX(${EDGE.left + part * (area.clientWidth - EDGE.left - EDGE.right)}px)`;
-      for (const { run, column, value } of curves) value.textContent = written(run.columns.at(column));
+      for (const { run, column, value } of curves) value.textContent = formatNumber(run.columns.at(column));
     }
   }
 }
 
 /** Numbers of 24 bits have steps that would be seen in less than this. */
-function still(low, high) {
+function isConstant(low, high) {
   return high - low <= 1e-5 * Math.max(Math.abs(low), Math.abs(high));
 }
 
@@ -208,8 +208,8 @@ function ticks(low, high, count) {
 }
 
 /** One of the round numbers of an axis, with the digits that tell it from its neighbours. */
-function marked(value, all) {
+function tickLabel(value, all) {
   const most = Math.max(...all.map(Math.abs));
   const step = all.length > 1 ? all[1] - all[0] : most || 1;
-  return written(value, clamp(Math.round(Math.log10(Math.abs(value) / step)) + 2, 1, 12));
+  return formatNumber(value, clamp(Math.round(Math.log10(Math.abs(value) / step)) + 2, 1, 12));
 }

@@ -2,22 +2,22 @@
 
 class Run {
   static async of(stage, run, number) {
-    const made = new Run();
-    Object.assign(made, { stage, run, number, name: run.name, stopped: run.stopped, parts: run.parts });
-    made.columns = await Columns.of(run);
-    made.group = new THREE.Group();
-    made.poses = run.poses.map((pose) => new Pose(stage, made.columns, pose));
-    for (const pose of made.poses) made.group.add(pose.group);
-    made.materials = [];
-    made.bodies = new Map();
-    made.items = [];
-    for (const shape of run.shapes) made.items.push(await made.item(shape));
-    made.items.forEach((item, index) => {
-      item?.object.traverse((object) => (object.userData = { run: made, index }));
+    const created = new Run();
+    Object.assign(created, { stage, run, number, name: run.name, stopped: run.stopped, parts: run.parts });
+    created.columns = await Columns.of(run);
+    created.group = new THREE.Group();
+    created.poses = run.poses.map((pose) => new Pose(stage, created.columns, pose));
+    for (const pose of created.poses) created.group.add(pose.group);
+    created.materials = [];
+    created.bodies = new Map();
+    created.items = [];
+    for (const shape of run.shapes) created.items.push(await created.item(shape));
+    created.items.forEach((item, index) => {
+      item?.object.traverse((object) => (object.userData = { run: created, index }));
     });
-    made.grounded = run.shapes.some((shape) => shape.kind === "ground");
-    stage.scene.add(made.group);
-    return made;
+    created.grounded = run.shapes.some((shape) => shape.kind === "ground");
+    stage.scene.add(created.group);
+    return created;
   }
 
   item(shape) {
@@ -32,7 +32,7 @@ class Run {
   }
 
   /** A material for a shape; tubes and skins carry their colours in their vertices. */
-  look(shape, more = {}) {
+  material(shape, more = {}) {
     const plain = more.vertexColors ? "#ffffff" : this.colour(shape);
     const material = new THREE.MeshPhongMaterial({ color: linear(plain), specular: linear("#333333"), shininess: 40, ...more });
     this.materials.push({ material, plain, painted: Boolean(more.vertexColors) });
@@ -40,7 +40,7 @@ class Run {
   }
 
   /** All runs but the first are ghosts: seen through, in one colour each. */
-  haunt(ghosts) {
+  showGhosts(ghosts) {
     const ghost = ghosts && this.number > 0;
     for (const { material, plain, painted } of this.materials) {
       const coloured = painted && this.stage.colours.active;

@@ -4,12 +4,12 @@ class Stage {
   constructor(element, view) {
     this.element = element;
     // Everything is drawn relative to the middle of the scene, in double precision up to there.
-    this.origin = mix(view.low, view.high, 0.5);
+    this.origin = lerp(view.low, view.high, 0.5);
     this.low = minus(view.low, this.origin);
     this.high = minus(view.high, this.origin);
     this.extent = length(minus(view.high, view.low)) || view.size || 1;
     this.up = unit(view.up, [0, 1, 0]);
-    this.thinnest = 0.0025 * this.extent; // the half of some pixels where the whole scene is seen: colours can be told
+    this.minRadius = 0.0025 * this.extent; // the half of some pixels where the whole scene is seen: colours can be told
     this.deformation = 1;
     this.arrowScale = {};
     this.show = { force: false, torque: false, grid: true, axes: true, frames: false };
@@ -21,8 +21,8 @@ class Stage {
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
     this.camera.up.set(...this.up);
     this.scene.add(this.camera);
-    this.light();
-    this.furnish();
+    this.addLights();
+    this.addGround();
     this.renderer = this.open();
   }
 
@@ -44,7 +44,7 @@ class Stage {
     }
   }
 
-  light() {
+  addLights() {
     this.scene.add(new THREE.HemisphereLight("#ffffff", linear("#9aa3b0"), 1.5));
     // Over the left shoulder of whoever looks, so that no side of the scene is ever dark.
     const sun = new THREE.DirectionalLight("#ffffff", 2.1);
@@ -54,16 +54,16 @@ class Stage {
   }
 
   /** Ground grid and axes of the world. */
-  furnish() {
+  addGround() {
     this.ground = new THREE.Group();
     this.scene.add(this.ground);
     const { along, front } = this.directions();
     const step = roundDown(this.extent / 8);
-    const floor = this.floor(step);
+    const floor = this.groundLevel(step);
     // The grid covers the scene's shadow and a margin, in whole steps from the world's origin.
     const world = times(-1, this.origin);
     const ranges = [along, front].map((axis) => {
-      const half = Math.max(this.reach(axis), 0.3 * this.extent) + 2 * step;
+      const half = Math.max(this.halfExtent(axis), 0.3 * this.extent) + 2 * step;
       const offset = dot(world, axis);
       return [Math.floor((-half - offset) / step), Math.ceil((half - offset) / step)];
     });
@@ -92,7 +92,7 @@ class Stage {
   }
 
   /** The box that the picture shows: the scene, and the axes of the world where they stand in it. */
-  framed() {
+  framedBox() {
     const world = times(-1, this.origin);
     const near = world.every((v, k) => v > this.low[k] - 0.05 * this.extent && v < this.high[k] + 0.05 * this.extent);
     if (!near || !this.show.axes) return this;
@@ -100,30 +100,30 @@ class Stage {
   }
 
   /** How far the scene reaches from its middle along an axis. */
-  reach(axis) {
+  halfExtent(axis) {
     return [0, 1, 2].reduce((sum, k) => sum + Math.abs(axis[k]) * this.high[k], 0);
   }
 
   /** Height of the grid above the world's origin: there, or below a scene that hangs lower. */
-  floor(step) {
-    const lowest = dot(this.origin, this.up) - this.reach(this.up);
+  groundLevel(step) {
+    const lowest = dot(this.origin, this.up) - this.halfExtent(this.up);
     return lowest < -1e-3 * this.extent ? step * Math.floor(lowest / step + 1e-9) : 0;
   }
 
   /** To the right and towards whoever looks from the front: x and z where y is up, x and -y where z is. */
   directions() {
-    const along = across(this.up, [1, 0, 0]);
+    const along = perpendicular(this.up, [1, 0, 0]);
     return { along, front: cross(along, this.up) };
   }
 
   /** A point of an object in the world, as it is drawn. */
-  drawn(object, mark) {
+  toWorld(object, mark) {
     const p = new THREE.Vector3(mark[0], mark[1], mark[2]).applyMatrix4(object.matrixWorld);
     return plus([p.x, p.y, p.z], this.origin);
   }
 
   /** A point of the world, resolved in a group. */
-  held(group, point) {
+  toLocal(group, point) {
     const p = new THREE.Vector3(...minus(point, this.origin)).applyMatrix4(group.matrixWorld.clone().invert());
     return [p.x, p.y, p.z];
   }
@@ -135,7 +135,7 @@ class Stage {
     const { clientWidth, clientHeight } = this.element;
     // As many side by side as make the panels most like the scene from the front.
     const { along } = this.directions();
-    const shape = clamp(this.reach(along) / this.reach(this.up) || 1, 0.5, 2);
+    const shape = clamp(this.halfExtent(along) / this.halfExtent(this.up) || 1, 0.5, 2);
     const rowsOf = (columns) => Math.ceil(n / columns);
     const unlike = (columns) => Math.abs(Math.log((clientWidth * rowsOf(columns)) / (columns * clientHeight * shape)));
     const columns = this.runs.map((_, k) => k + 1).reduce((best, next) => (unlike(next) < unlike(best) ? next : best));
@@ -160,7 +160,7 @@ class Stage {
     this.renderer?.setSize(width, height, false);
   }
 
-  dress() {
+  applyTheme() {
     const style = getComputedStyle(document.documentElement);
     // The only colour that is written to the picture unconverted.
     this.scene.background = new THREE.Color(style.getPropertyValue("--sky").trim());
@@ -168,7 +168,7 @@ class Stage {
   }
 
   /** Planes that hold all there is, the near one as far out as can be: for the precision of the depths. */
-  cut() {
+  setClippingPlanes() {
     const { camera } = this;
     const ahead = camera.getWorldDirection(new THREE.Vector3()).toArray();
     const here = camera.position.toArray();
@@ -186,7 +186,7 @@ class Stage {
     this.ground.visible = this.show.grid;
     this.axes.visible = this.show.axes;
     if (!this.renderer) return;
-    this.cut();
+    this.setClippingPlanes();
     const { clientWidth: width, clientHeight: height } = this.element;
     this.renderer.setScissorTest(false);
     this.renderer.setClearColor(this.scene.background);

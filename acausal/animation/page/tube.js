@@ -50,7 +50,7 @@ class Tube {
     let second = null;
     for (let i = 0; i < count; i++) {
       const along = unit(directions[i], second ? cross(second, [0, 0, 1]) : [1, 0, 0]);
-      second = across(along, second ?? up);
+      second = perpendicular(along, second ?? up);
       const first = cross(second, along);
       for (let k = 0; k < around; k++) {
         const [c, s] = this.circle[k];

@@ -6,7 +6,7 @@ const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const length = (a) => Math.hypot(a[0], a[1], a[2]);
-const mix = (a, b, s) => [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])];
+const lerp = (a, b, s) => [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])];
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 function unit(a, otherwise = [1, 0, 0]) {
@@ -15,7 +15,7 @@ function unit(a, otherwise = [1, 0, 0]) {
 }
 
 /** A unit vector at right angles to a unit vector, as near to `wanted` as can be. */
-function across(axis, wanted) {
+function perpendicular(axis, wanted) {
   if (wanted) {
     const rest = minus(wanted, times(dot(wanted, axis), axis));
     if (length(rest) > 1e-3 * length(wanted)) return unit(rest);
@@ -26,7 +26,7 @@ function across(axis, wanted) {
 }
 
 /** A vector that is resolved in a body, turned into the world: v + 2 u x (u x v + w v), u the vector part. */
-function turned(q, v) {
+function rotate(q, v) {
   const u = [q[1], q[2], q[3]];
   return plus(v, times(2, cross(u, plus(cross(u, v), times(q[0], v)))));
 }
@@ -39,7 +39,7 @@ function roundDown(value) {
 }
 
 /** A number as people write it, with so many significant digits. */
-function written(value, digits = 4) {
+function formatNumber(value, digits = 4) {
   if (!Number.isFinite(value)) return "\u2013";
   if (value === 0) return "0";
   const size = Math.abs(value);

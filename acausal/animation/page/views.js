@@ -28,7 +28,7 @@ class Views {
   }
 
   /** A flat scene is looked at face to face, any other from a corner. */
-  natural() {
+  defaultView() {
     const sizes = minus(this.stage.high, this.stage.low);
     const thin = sizes.map((s) => s < 0.12 * this.stage.extent);
     const { along, front } = this.stage.directions();
@@ -38,14 +38,14 @@ class Views {
     return flat(along) ? "right" : "iso";
   }
 
-  look(name) {
-    this.place(this.direction(name));
+  show(name) {
+    this.placeCamera(this.direction(name));
     this.name = name;
   }
 
   /** The whole scene from the present side. */
   fit() {
-    this.place(unit(minus(this.stage.camera.position.toArray(), this.controls.target.toArray()), [0, 0, 1]));
+    this.placeCamera(unit(minus(this.stage.camera.position.toArray(), this.controls.target.toArray()), [0, 0, 1]));
   }
 
   /** Zoom with the wheel: what is under the pointer stays there. */
@@ -68,9 +68,9 @@ class Views {
     this.moved();
   }
 
-  place(direction) {
+  placeCamera(direction) {
     const { camera, up, extent } = this.stage;
-    const { low, high } = this.stage.framed();
+    const { low, high } = this.stage.framedBox();
     const right = unit(cross(up, direction), [1, 0, 0]);
     const above = cross(direction, right);
     const tall = Math.tan((camera.fov * Math.PI) / 360) * 0.92;
@@ -95,7 +95,7 @@ class Views {
     this.last = point && minus(point(), this.stage.origin);
   }
 
-  carry() {
+  followPart() {
     if (!this.followed) return;
     const now = minus(this.followed(), this.stage.origin);
     const step = new THREE.Vector3(...minus(now, this.last));
