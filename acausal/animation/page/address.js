@@ -1,6 +1,6 @@
-// What the address says after its #: file.html#t=1.2&x=10&view=front
+// Settings in the fragment of the address: file.html#t=1.2&x=10&view=front
 
-/** Do what the address asks for; words it does not know are passed over. */
+/** Apply the settings of a fragment; unknown ones are ignored. */
 function applyAddress(viewer, hash) {
   const said = new URLSearchParams(hash.replace(/^#/, ""));
   const number = (name) => (said.has(name) && said.get(name) !== "" ? Number(said.get(name)) : NaN);

@@ -1,7 +1,7 @@
-// The chosen part: followed by the camera, traced by a line.
+// Selection of a part, to be followed by the camera or traced by a line.
 
 Object.assign(Viewer.prototype, {
-  /** A click in the picture: the point that was touched is what is followed or traced. */
+  /** Select the part under a click; the clicked point is followed or traced. */
   pick(found) {
     this.choose(found?.part >= 0 ? `${found.run.number}/${found.part}` : "", found);
   },

@@ -7,7 +7,7 @@ class Curve {
     this.stage = context.stage;
     this.shape = shape;
     this.nodes = shape.points.length;
-    // Some hundred rings a beam: smooth to the eye with few elements, and not wasteful with many.
+    // About a hundred rings for each beam, whatever the number of its elements.
     this.parts = clamp(Math.ceil(96 / (this.nodes - 1)), 4, 32);
     this.tube = new Tube((this.nodes - 1) * this.parts + 1, 20, context.material(shape, { vertexColors: true }));
     this.object = this.tube.object;
@@ -15,7 +15,7 @@ class Curve {
     context.group.add(this.object);
   }
 
-  /** Positions of the nodes and derivatives by the coordinate 0 ... 1 of an element, deformation scaled. */
+  /** Positions and tangents of the nodes with scaled deformation; the parameter grows by 1 along each element. */
   centreline() {
     const points = this.shape.points.map((ks) => this.columns.vector(ks));
     const tangents = this.shape.tangents?.map((ks) => this.columns.vector(ks)) ?? slopes(points);
@@ -27,7 +27,7 @@ class Curve {
     return { points: drawn, tangents: tangents.map((tangent, i) => lerp(straight[i], tangent, scale)) };
   }
 
-  /** Where the nodes were if nothing deformed: on the chord, or with the frame of the beam. */
+  /** Undeformed positions of the nodes: on the chord, or fixed to the frame of the beam. */
   rest(points) {
     const { chord, fractions, pose, points: local } = this.shape.rest;
     if (chord) return fractions.map((f) => lerp(points[0], points[this.nodes - 1], f));
@@ -89,7 +89,7 @@ class Curve {
   }
 }
 
-/** Derivatives by the number of the point, as the neighbours tell them. */
+/** Tangents at points by central differences, one-sided at the ends. */
 function slopes(points) {
   const last = points.length - 1;
   return points.map((_, i) => {

@@ -1,4 +1,4 @@
-// The pointer over the picture: which part is there, and what to do with it.
+// Pointer over the scene: shows the part under it and selects it by a click.
 
 class Hover {
   constructor(stage, tip, chosen) {
@@ -20,7 +20,7 @@ class Hover {
     });
   }
 
-  /** One search a frame, however often the pointer tells. */
+  /** Search at most once for each drawing, with the latest event. */
   schedule(event) {
     const waiting = this.event;
     this.event = event;

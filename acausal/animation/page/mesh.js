@@ -1,4 +1,4 @@
-// The skin of an elastic body: vertices in its frame, moved by modes.
+// Surface of an elastic body: vertices in its frame, displaced by modes.
 
 class Skin {
   static async of(context, shape) {
@@ -52,7 +52,7 @@ class Skin {
     color.needsUpdate = true;
   }
 
-  /** The largest displacement over some of the frames. */
+  /** Largest displacement over about a hundred frames. */
   largest() {
     const { columns } = this;
     const step = Math.max(1, Math.floor(columns.frames / 100));

@@ -1,4 +1,4 @@
-// One run: its columns, its bodies, and one drawn item for each shape.
+// One run: its columns, its poses, and one item for each shape.
 
 class Run {
   static async of(stage, run, number) {
@@ -31,7 +31,7 @@ class Run {
     return colourOf(shape, this.bodies);
   }
 
-  /** A material for a shape; tubes and skins carry their colours in their vertices. */
+  /** Material of a shape; tubes and surfaces have vertex colours. */
   material(shape, more = {}) {
     const plain = more.vertexColors ? "#ffffff" : this.colour(shape);
     const material = new THREE.MeshPhongMaterial({ color: linear(plain), specular: linear("#333333"), shininess: 40, ...more });
@@ -39,7 +39,7 @@ class Run {
     return material;
   }
 
-  /** All runs but the first are ghosts: seen through, in one colour each. */
+  /** Draw all runs except the first as ghosts: transparent, each in one colour. */
   showGhosts(ghosts) {
     const ghost = ghosts && this.number > 0;
     for (const { material, plain, painted } of this.materials) {
@@ -59,7 +59,7 @@ class Run {
     for (const item of this.items) item.update();
   }
 
-  /** Where an item's anchor is at the present time of the columns. */
+  /** A function that returns the position of a part's anchor at the current time of the columns, or null. */
   anchorOf(part, touched = null, index = -1) {
     const item = index >= 0 ? this.items[index] : this.items.find((one, k) => one.anchor && this.run.shapes[k].part === part);
     return item?.anchor ? item.anchor(touched) : null;

@@ -1,4 +1,4 @@
-// Rigid things: boxes, cylinders, spheres and pins, drawn once and carried by the pose of their body.
+// Rigid shapes: boxes, cylinders, spheres and axles, fixed to the pose of a body.
 
 const UNIT = {
   box: () => new THREE.BoxGeometry(1, 1, 1),
@@ -8,12 +8,12 @@ const UNIT = {
 };
 const geometries = {};
 
-/** The geometry of unit size, one for all; cylinders and cones stand along y. */
+/** Shared geometry of unit size; the axis of cylinders and cones is y. */
 function unitGeometry(kind) {
   return (geometries[kind] ??= UNIT[kind]());
 }
 
-/** The matrix that takes the unit cylinder to one between two points. */
+/** Matrix that maps the unit cylinder to a cylinder between two points. */
 function cylinderMatrix(from, to, diameter) {
   const axis = unit(minus(to, from), [0, 1, 0]);
   const side = perpendicular(axis);
@@ -33,7 +33,7 @@ function frameMatrix(center, axes, sizes) {
   );
 }
 
-/** One body's frame, as a group that carries what is fixed to it. */
+/** Frame of a body, as a group of the objects that are fixed to it. */
 class Pose {
   constructor(stage, columns, pose) {
     this.columns = columns;
@@ -50,12 +50,12 @@ class Pose {
     this.group.quaternion.set(q[1], q[2], q[3], q[0]);
   }
 
-  /** Where a point of the body is in the world, from the columns. */
+  /** Position in the world of a point that is fixed to the body, in double precision. */
   point(local) {
     return plus(this.columns.vector(this.pose.r), rotate(this.columns.quaternion(this.pose.q), local));
   }
 
-  /** The axes of the frame, made when they are asked for. */
+  /** Show or hide the axes of the frame, which are created on first use. */
   showAxes(wanted) {
     if (wanted && !this.axes) {
       this.axes = tripod(0.07 * this.stage.extent);
@@ -108,7 +108,7 @@ class Solid {
     return this.marks.map((mark) => this.stage.toWorld(this.object, mark));
   }
 
-  /** What follows the shape, given where it was touched (in the world) or not at all. */
+  /** A function that returns the position of a point of the shape: the given point of the world, or its center. */
   anchor(touched) {
     const local = touched ? this.stage.toLocal(this.pose.group, touched) : this.middle;
     return () => this.pose.point(local);

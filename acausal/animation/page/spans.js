@@ -1,8 +1,8 @@
-// What is stretched between two moving points (coils, rods, rails), and arrows.
+// Coils, rods and rails between two moving points, and arrows.
 
 const TURNS = 9;
 const PER_TURN = 16;
-const LEAD = 0.12; // of the length at each end of a coil, straight
+const LEAD = 0.12; // straight fraction of the length at each end of a coil
 
 class Span {
   constructor(context, shape) {
@@ -42,7 +42,7 @@ class Span {
       const s = this.fraction(i, count);
       const wound = clamp((s - LEAD) / (1 - 2 * LEAD), 0, 1);
       const angle = 2 * Math.PI * TURNS * wound;
-      // The wire leaves the axis and comes back to it within half a turn.
+      // The radius grows from the axis, and returns to it, within half a turn.
       const radius = winding * Math.min(1, 2 * TURNS * Math.min(wound, 1 - wound));
       const out = plus(times(radius * Math.cos(angle), first), times(radius * Math.sin(angle), second));
       return plus(lerp(a, b, s), out);
@@ -51,7 +51,7 @@ class Span {
     this.tube.place(points, directions, null, wire, wire);
   }
 
-  /** Four rings for each straight end, the rest for the winding. */
+  /** Position of ring i along the coil: four rings for each straight end, the others for the winding. */
   fraction(i, count) {
     if (i < 4) return (LEAD * i) / 4;
     if (i >= count - 4) return 1 - (LEAD * (count - 1 - i)) / 4;
@@ -87,7 +87,7 @@ class Arrow {
     context.group.add(this.object);
   }
 
-  /** The longest vector over time. */
+  /** Largest length of the vector over time. */
   longest() {
     const series = this.shape.vector.map((k) => this.columns.series(k));
     let most = 0;
@@ -111,7 +111,7 @@ class Arrow {
       const end = minus(tip, times(0.7 * k * head, axis));
       mesh.matrix.copy(cylinderMatrix(minus(end, times(head, axis)), end, wide));
     });
-    // Less than a thousandth of the scene is no arrow.
+    // Arrows shorter than a thousandth of the scene are hidden.
     this.object.visible = this.stage.show[this.quantity] && size > 1e-3 * this.stage.extent;
   }
 

@@ -1,4 +1,4 @@
-// Paths of points: the whole path faint, the part up to now in full colour.
+// Traces of points: the whole path pale, the past part in full colour.
 
 class Traces {
   constructor(stage) {
@@ -43,7 +43,7 @@ class Traces {
     }
   }
 
-  /** Where the point is at all frames. */
+  /** Compute the positions of the point at all frames. */
   fill({ run, point, lines }) {
     const { columns } = run;
     const position = lines[0].geometry.attributes.position;
@@ -55,7 +55,7 @@ class Traces {
     position.needsUpdate = true;
   }
 
-  /** After the deformation has another scale. */
+  /** Recompute all traces, after a change of the scale of deformations. */
   refill() {
     this.list.forEach((one) => this.fill(one));
   }

@@ -1,4 +1,4 @@
-// The viewer: what the controls, the keys and the address ask for, and one drawing when something has changed.
+// Viewer: state of the page, changed by controls, keys and address, and drawn once after each change.
 
 class Viewer {
   constructor(document_, stage, runs) {
@@ -22,7 +22,7 @@ class Viewer {
     this.view(this.views.defaultView());
   }
 
-  /** Something has changed: draw at the next occasion, once. */
+  /** Draw once at the next animation frame. */
   requestDraw() {
     if (this.waiting || !this.plots) return;
     this.waiting = true;
@@ -41,7 +41,7 @@ class Viewer {
     showState(this);
   }
 
-  /** Bring everything to the present time, without drawing. */
+  /** Update all objects to the current time, without drawing. */
   update() {
     for (const run of this.runs) run.update(this.clock.t);
     this.traces.update();
@@ -56,7 +56,7 @@ class Viewer {
     this.requestDraw();
   }
 
-  /** Forces and torques: the longest over time is a quarter of the extent. */
+  /** Scale forces and torques so that the longest over time is a quarter of the extent. */
   scaleArrows() {
     for (const quantity of ["force", "torque"]) {
       const arrows = this.runs.flatMap((run) => run.items).filter((item) => item.quantity === quantity);
@@ -68,7 +68,7 @@ class Viewer {
     }
   }
 
-  /** Offer what the document has: values to colour by, parts, what deforms. */
+  /** Fill the lists of values and parts, and hide controls that the document has no use for. */
   fillLists() {
     const options = [["none", "none"], ...this.values.map((v) => [v.name, v.unit ? `${v.name} (${v.unit})` : v.name])];
     $("colour").replaceChildren(...options.map(([value, text]) => make("option", { value, textContent: text })));
@@ -94,7 +94,7 @@ class Viewer {
     this.showStopped();
   }
 
-  /** Runs that ended early. */
+  /** Show which runs ended early and why. */
   showStopped() {
     const said = this.runs.filter((run) => run.stopped).map((run) => {
       const name = this.runs.length > 1 ? `${run.name}: ` : "";
@@ -104,7 +104,7 @@ class Viewer {
     $("stopped").hidden = !said.length;
   }
 
-  /** Names of the runs, in their panels or with the colours of their ghosts. */
+  /** Label the runs in their panels, or in the colours of their ghosts. */
   labelRuns() {
     const { stage } = this;
     const key = `${stage.ghosts}/${stage.element.clientWidth}/${stage.element.clientHeight}`;
@@ -152,7 +152,7 @@ class Viewer {
     this.requestDraw();
   }
 
-  /** Colour by a value that the document has; any other word is none. */
+  /** Colour by a value of the document; any other name means none. */
   colour(name) {
     const entry = this.values.find((value) => value.name === name);
     this.stage.colours.choose(entry);

@@ -1,4 +1,4 @@
-// The camera: orbit, standard views, fitting the scene, following a part.
+// Camera: orbit, standard views, fit to the scene, following a part.
 
 const VIEWS = ["front", "top", "right", "iso"];
 
@@ -7,7 +7,7 @@ class Views {
     this.stage = stage;
     this.followed = null;
     const glass = $("glass");
-    // Registered before OrbitControls, whose own wheel zooms to the middle of the picture.
+    // Registered before OrbitControls, whose own handler zooms to the middle of the view.
     glass.addEventListener("wheel", (event) => this.zoom(event), { passive: false });
     this.controls = new THREE.OrbitControls(stage.camera, glass);
     this.moved = () => {
@@ -18,16 +18,16 @@ class Views {
     this.controls.addEventListener("change", this.moved);
   }
 
-  /** The direction from the scene to the camera, and what is up in the picture. */
+  /** Direction from the scene to the camera in a standard view. */
   direction(name) {
     const { along, front } = this.stage.directions();
     const up = this.stage.up;
     const iso = unit(plus(plus(times(0.75, along), times(0.55, up)), front));
-    // Straight from above the horizon turns; a hair beside it, it does not.
+    // Exactly from above, the upward direction of the view would be undefined.
     return { front, right: along, top: unit(plus(up, times(1e-4, front))), iso }[name] ?? iso;
   }
 
-  /** A flat scene is looked at face to face, any other from a corner. */
+  /** Name of the default view: face on for a flat scene, otherwise from a corner. */
   defaultView() {
     const sizes = minus(this.stage.high, this.stage.low);
     const thin = sizes.map((s) => s < 0.12 * this.stage.extent);
@@ -43,12 +43,12 @@ class Views {
     this.name = name;
   }
 
-  /** The whole scene from the present side. */
+  /** Fit the whole scene into the view, without changing the direction. */
   fit() {
     this.placeCamera(unit(minus(this.stage.camera.position.toArray(), this.controls.target.toArray()), [0, 0, 1]));
   }
 
-  /** Zoom with the wheel: what is under the pointer stays there. */
+  /** Zoom with the wheel about the point under the pointer. */
   zoom(event) {
     event.preventDefault();
     event.stopImmediatePropagation();
@@ -56,10 +56,10 @@ class Views {
     const { target } = this.controls;
     const spot = this.stage.panelAt(event);
     if (!spot) return;
-    // 5 % for 100 pixels; a wheel may count lines or pages, and a pinch on a touch pad counts a tenth of the pixels.
+    // 5 % for 100 pixels. Wheels may report lines or pages, and pinches on a touch pad a tenth of the pixels (as ctrl + wheel).
     const pixels = event.deltaY * [1, 16, 100][event.deltaMode] * (event.ctrlKey ? 10 : 1);
     const scale = 0.95 ** (-pixels / 100);
-    camera.updateMatrixWorld(); // several events may come between two pictures
+    camera.updateMatrixWorld(); // several events may precede the next drawing
     const distance = camera.position.distanceTo(target);
     const ray = new THREE.Vector3(spot.x, spot.y, 0).unproject(camera).sub(camera.position).normalize();
     camera.position.addScaledVector(ray, distance * (1 - scale));
@@ -89,7 +89,7 @@ class Views {
     this.stage.target = target;
   }
 
-  /** Keep a moving point where it is in the picture; null lets go. */
+  /** Follow a moving point with the camera; null stops. */
   follow(point) {
     this.followed = point;
     this.last = point && minus(point(), this.stage.origin);
