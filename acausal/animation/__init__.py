@@ -1,1 +1,1 @@
-"""Moving pictures of a result, as pages that any browser plays."""
+"""Animations of a result, as pages that any browser plays."""

@@ -1,4 +1,4 @@
-"""From where a scene is looked at, and what is seen in which colour."""
+"""View direction and shading of a scene."""
 
 from __future__ import annotations
 
@@ -6,47 +6,47 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# A scene whose depth is less than this part of its width or height is looked at from the front.
+# A scene is flat, and viewed face on, if its depth is less than this fraction of its width or height.
 FLAT = 0.2
-# Otherwise from the right and above, rad.
+# View of other scenes, from the right and above, rad.
 AZIMUTH, ELEVATION = 0.6, 0.4
 LIGHT = np.array([-0.4, 0.6, 0.7]) / np.linalg.norm([-0.4, 0.6, 0.7])
-DARKEST = 0.5
+DARKEST = 0.5  # brightness of a face that is turned away from the light, relative to a lit one
 
 
 @dataclass(frozen=True)
 class Camera:
-    """A view without perspective.
+    """Orthographic camera.
 
     Parameters
     ----------
     axes : array, shape (3, 3)
-        Unit vectors to the right, upwards and towards the eye, resolved in the world.
+        Unit vectors to the right, upwards and towards the viewer, resolved in the world.
     """
 
     axes: np.ndarray
 
-    def seen(self, points: np.ndarray) -> np.ndarray:
-        """Return points of the world, (..., 3), to the right, upwards and towards the eye, in m."""
+    def project(self, points: np.ndarray) -> np.ndarray:
+        """Return points of the world, (..., 3), resolved in the axes of the camera, in m."""
         return points @ self.axes.T
 
     def shade(self, colour: np.ndarray, normals: np.ndarray) -> np.ndarray:
-        """Return colours of faces, (n, 3), from their normals in the world, (n, 3)."""
-        lit = np.clip(self.seen(normals) @ LIGHT, 0, 1)
+        """Return the shaded colours of faces, (n, 3), with normals (n, 3) in the world."""
+        lit = np.clip(self.project(normals) @ LIGHT, 0, 1)
         return colour * (DARKEST + (1 - DARKEST) * lit)[:, None]
 
 
 def camera(low: np.ndarray, high: np.ndarray, up: np.ndarray) -> Camera:
-    """Return the view that suits a scene: along the direction in which it is flat, or from the side and above.
+    """Return the default camera of a scene: face on if the scene is flat, otherwise from the right and above.
 
     Parameters
     ----------
     low, high : array, shape (3,)
-        Corners of what is seen, resolved in the world.
+        Corners of the scene, resolved in the world.
     up : array, shape (3,)
-        Unit vector.
+        Unit vector, resolved in the world.
     """
-    right = level(up)
+    right = horizontal(up)
     toward = np.cross(right, up)
     wide, high_, deep = (np.abs(axis) @ (high - low) for axis in (right, up, toward))
     if deep <= FLAT * max(wide, high_):
@@ -59,9 +59,9 @@ def camera(low: np.ndarray, high: np.ndarray, up: np.ndarray) -> Camera:
     return Camera(np.array([across, c * up - s * aside, c * aside + s * up]))
 
 
-def level(up: np.ndarray) -> np.ndarray:
-    """Return a unit vector normal to `up`, along the x axis of the world where that can be."""
-    # One of the first two axes is at least 45 degrees off any direction.
+def horizontal(up: np.ndarray) -> np.ndarray:
+    """Return the x axis of the world, or y if that is farther from `up`, projected normal to `up` and normalised."""
+    # At least one of the x and y axes is 45 degrees or more away from any direction.
     right = np.eye(3)[int(np.abs(up[0]) > np.abs(up[1]))]
     right = right - (right @ up) * up
     return right / np.linalg.norm(right)

@@ -1,4 +1,4 @@
-"""What a model looks like: the shapes of its parts, with their paths."""
+"""Collect the shapes of the parts of a model."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from acausal.language.component import Component
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
-    """A shape and the part that looks like it.
+class PartShape:
+    """A shape and the part that yields it.
 
     Parameters
     ----------
     path : str
-        Of the part; "" is the model.
+        Path of the part; "" is the model.
     kind : str
         Name of the part's class.
     shape : Shape
-        Its geometry.
+        Geometry.
     """
 
     path: str
@@ -30,40 +30,40 @@ class Seen:
     shape: Any
 
 
-def collect(component: Component) -> list[Seen]:
-    """Return the shapes of a bound model; each part is asked once, however many yield it.
+def collect(component: Component) -> list[PartShape]:
+    """Return the shapes of a bound model, those of each part once.
 
     Raises
     ------
     DeclarationError
-        If shapes() yields anything else than shapes and parts, or fails.
+        If shapes() fails, or yields anything but shapes and parts.
     """
     return list(_collected(component, set()))
 
 
-def _collected(component: Component, asked: set[int]) -> Iterator[Seen]:
-    if id(component) in asked:
+def _collected(component: Component, visited: set[int]) -> Iterator[PartShape]:
+    if id(component) in visited:
         return
-    asked.add(id(component))
+    visited.add(id(component))
     path, kind = component._path, type(component).__name__
-    found: Any = called(component.shapes, path, kind)
+    found: Any = call_user_code(component.shapes, path, kind)
     if not hasattr(found, "__iter__"):
-        raise DeclarationError(f"shapes() of {component!r} returns {found!r}; yield each shape: `yield Sphere(...)`.")
+        raise DeclarationError(f"shapes() of {component!r} returns {found!r}. Yield each shape: `yield Sphere(...)`.")
     shapes = iter(found)
-    while (item := called(lambda: next(shapes, None), path, kind)) is not None:
+    while (item := call_user_code(lambda: next(shapes, None), path, kind)) is not None:
         if isinstance(item, Component):
-            yield from _collected(item, asked)
+            yield from _collected(item, visited)
         elif isinstance(item, Shape):
             _check_words(component, item)
-            yield Seen(path, kind, item)
+            yield PartShape(path, kind, item)
         else:
             raise DeclarationError(
-                f"shapes() of {component!r} yields {item!r}; it yields kinds of acausal.geometry, such as Sphere(...), and parts."
+                f"shapes() of {component!r} yields {item!r}. Yield shapes of acausal.geometry, such as Sphere(...), or parts."
             )
 
 
-def called(function: Callable[[], Any], path: str, kind: str) -> Any:
-    """Call a function of the user's that says what a part looks like; an error of it names the part and the line."""
+def call_user_code(function: Callable[[], Any], path: str, kind: str) -> Any:
+    """Call a function of a part's shapes(); an error in it is reported with the part and the user's line."""
     try:
         return function()
     except AcausalError:
@@ -74,11 +74,11 @@ def called(function: Callable[[], Any], path: str, kind: str) -> Any:
 
 
 def _check_words(component: Component, shape: Any) -> None:
-    """Refuse a style or quantity that there is not."""
+    """Raise an error for an unknown style or quantity."""
     for name, known in (("style", STYLES), ("quantity", QUANTITIES)):
         word = getattr(shape, name, known[0])
         if word not in known:
-            there = ", ".join(map(repr, known))
+            allowed = ", ".join(map(repr, known))
             raise DeclarationError(
-                f"`{name}` of the {type(shape).__name__} of {component!r} is {word!r}, not one of {there}."
+                f"`{name}` of the {type(shape).__name__} of {component!r} is {word!r}, not one of {allowed}."
             )

@@ -1,4 +1,4 @@
-"""A frame of a scene as coloured polygons, those that are nearer later."""
+"""Draw a frame of a scene as coloured polygons, sorted from the farthest to the nearest."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.camera import Camera, level
-from acausal.animation.scene import Scene, corners, fractions, placed
+from acausal.animation.camera import Camera, horizontal
+from acausal.animation.scene import Scene, chord_fractions, corners, in_world
 
 PALETTE = ("#3b6fd1", "#e08a3c", "#2a9d78", "#d6556b", "#a05fc9", "#3aa7b5", "#a58b2d", "#7d6ee0")
 DARK, ROD, COIL = "#4a5260", "#8a93a3", "#b9772a"
 ARROWS = {"force": "#d32f2f", "torque": "#8e24aa"}
 GRID = "#d9dee6"
-# Of the scene: its longest arrow, grid lines to each side.
-ARROW, LINES = 0.25, 8
-SIDES, BETWEEN, TURNS = 32, 10, 9
+ARROW = 0.25  # length of the longest arrow, relative to the size of the scene
+LINES = 8  # grid spacings within the diagonal of the scene
+SIDES, PIECES, TURNS = 32, 10, 9  # corners of a circle, straight pieces of a cubic, turns of a coil
 
 
 @dataclass(frozen=True)
 class Polygon:
-    """Corners (n, 2) to the right and upwards in m, how near the eye it is, and its colour (3,)."""
+    """Corners (n, 2) to the right and upwards in m, coordinate towards the viewer in m, and colour (3,)."""
 
     corners: np.ndarray
     depth: float
@@ -34,18 +34,18 @@ Pieces = Iterator[Polygon]
 
 
 class Drawing:
-    """Draws the frames of a scene.
+    """Drawing of the frames of a scene.
 
     Parameters
     ----------
     scene : Scene
-        With sizes.
-    camera : Camera
-        From where.
+        Scene with default sizes filled in.
+    view : Camera
+        Camera.
     colours : callable, optional
-        From values along a curve, shape (n,), to colours (n, 3).
+        Maps values along a curve, shape (n,), to colours (n, 3).
     by : str
-        Name of the values that `colours` takes.
+        Name of the values to colour curves by.
     deformation : float
         Scale of deformations.
     """
@@ -61,7 +61,7 @@ class Drawing:
         self.scene, self.view, self.colours, self.by = scene, view, colours, by
         self.deformation = deformation
         paths = dict.fromkeys(
-            one.path for one in scene.seen if isinstance(one.shape, g.Box | g.Cylinder | g.Sphere | g.Curve | g.Mesh)
+            one.path for one in scene.shapes if isinstance(one.shape, g.Box | g.Cylinder | g.Sphere | g.Curve | g.Mesh)
         )
         self.colour = {path: rgb(PALETTE[k % len(PALETTE)]) for k, path in enumerate(paths)}
         self.longest = {kind: self._longest(kind) for kind in ARROWS}
@@ -69,25 +69,25 @@ class Drawing:
     def _longest(self, kind: str) -> float:
         lengths = [
             float(np.max(np.linalg.norm(one.shape.vector, axis=1)))
-            for one in self.scene.seen
+            for one in self.scene.shapes
             if isinstance(one.shape, g.Arrow) and one.shape.quantity == kind
         ]
         return max(lengths, default=0.0)
 
     def frame(self, k: int) -> list[Polygon]:
-        """Return what is seen at the frame k, the ground aside."""
+        """Return the polygons of frame k, without the ground."""
         found = [
-            p for one in self.scene.seen for p in DRAW[type(one.shape)](self, one.shape, k, self.colour.get(one.path))
+            p for one in self.scene.shapes for p in DRAW[type(one.shape)](self, one.shape, k, self.colour.get(one.path))
         ]
         return sorted(found, key=lambda polygon: polygon.depth)
 
     def grid(self) -> Pieces:
-        """Lines on the ground, as low as the scene hangs; none where there is no ground."""
+        """Yield the lines of the ground, at the lowest level of the scene if that is below the origin; none without ground."""
         scene = self.scene
-        if not any(isinstance(one.shape, g.Ground) for one in scene.seen):
+        if not any(isinstance(one.shape, g.Ground) for one in scene.shapes):
             return
         low = min(0.0, float(np.min(corners(scene.low, scene.high) @ scene.up)))
-        first = level(scene.up)
+        first = horizontal(scene.up)
         sides = np.array([first, np.cross(scene.up, first)])
         middle = (scene.low + scene.high) / 2
         middle = middle - (middle @ scene.up - low) * scene.up
@@ -99,8 +99,8 @@ class Drawing:
                 yield from self.strip(ends, 0.002 * scene.size, rgb(GRID))
 
     def strip(self, points: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
-        """A line of some width through points of the world; `colour` (3,), or (n - 1, 3) along it."""
-        seen = self.view.seen(points)
+        """Yield a line of constant width through points of the world; `colour` is (3,), or (n - 1, 3) along the line."""
+        seen = self.view.project(points)
         steps = np.diff(seen, axis=0)
         length = np.linalg.norm(steps[:, :2], axis=1)
         colours = np.broadcast_to(colour, (len(steps), 3))
@@ -112,7 +112,7 @@ class Drawing:
                 )
 
     def tube(self, points: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
-        """A strip with a lighter middle and round ends."""
+        """Yield a strip with a lighter middle and round ends."""
         yield from (
             self.disc(points[0], radius, colour.reshape(-1, 3)[0]),
             self.disc(points[-1], radius, colour.reshape(-1, 3)[-1]),
@@ -122,13 +122,13 @@ class Drawing:
         yield from self.strip(nearer, radius / 2, 0.75 * colour + 0.25)
 
     def disc(self, center: np.ndarray, radius: float, colour: np.ndarray) -> Polygon:
-        """A circle that faces the eye."""
-        seen = self.view.seen(center)
+        """Return a circle that faces the viewer."""
+        seen = self.view.project(center)
         return Polygon(seen[:2] + radius * _circle(), float(seen[2]), colour)
 
     def faces(self, points: np.ndarray, faces: Any, colour: np.ndarray) -> Pieces:
-        """Faces of a solid, (n, m) places of points of the world, outward anticlockwise; those that look away are left out."""
-        seen = self.view.seen(points)
+        """Yield the visible faces of a solid: (n, m) indices of points of the world, anticlockwise from outside."""
+        seen = self.view.project(points)
         at = points[faces]
         normals = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
         size = np.linalg.norm(normals, axis=1)
@@ -138,7 +138,7 @@ class Drawing:
             yield Polygon(seen[face, :2], float(np.mean(seen[face, 2])), shade)
 
     def prism(self, start: np.ndarray, end: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
-        """A cylinder between two points of the world."""
+        """Yield a cylinder between two points of the world."""
         along = (end - start) / (np.linalg.norm(end - start) or 1)
         one = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
         one /= np.linalg.norm(one) or 1
@@ -150,7 +150,7 @@ class Drawing:
         yield from self.faces(points, np.array([k[::-1], k + SIDES]), colour)
 
     def box(self, s: g.Box, k: int, colour: np.ndarray) -> Pieces:
-        """Six faces."""
+        """Yield the faces of a box."""
         half = np.asarray(s.size) / 2
         local = s.center + corners(-half, half) @ s.axes
         hand = np.linalg.det(s.axes) > 0
@@ -158,12 +158,12 @@ class Drawing:
         yield from self.faces(_at(s.pose, local, k), faces if hand else faces[:, ::-1], colour)
 
     def cylinder(self, s: g.Cylinder, k: int, colour: np.ndarray) -> Pieces:
-        """Its side and both ends."""
+        """Yield the side and the ends of a cylinder."""
         start, end = _at(s.pose, np.array([s.start, s.end]), k)
         yield from self.prism(start, end, s.diameter / 2, colour)
 
     def sphere(self, s: g.Sphere, k: int, colour: np.ndarray) -> Pieces:
-        """A disc with a light spot."""
+        """Yield a disc with a highlight."""
         (center,) = _at(s.pose, np.array([s.center]), k)
         radius = s.diameter / 2
         yield self.disc(center, radius, 0.8 * colour)
@@ -171,13 +171,13 @@ class Drawing:
         yield self.disc(spot, radius / 2, 0.7 * colour + 0.3)
 
     def axle(self, s: g.Axle, k: int, _: Any) -> Pieces:
-        """A short pin."""
+        """Yield a short cylinder."""
         half = np.asarray(s.axis) / np.linalg.norm(s.axis) * s.length / 2
         start, end = _at(s.pose, np.array([-half, half]), k)
         yield from self.prism(start, end, s.diameter / 2, rgb(DARK))
 
     def span(self, s: g.Span, k: int, _: Any) -> Pieces:
-        """A rod, or a coil."""
+        """Yield a rod or a coil."""
         a, b = s.start[k], s.end[k]
         if s.style != "coil":
             yield from self.tube(np.array([a, b]), s.diameter / 2, rgb(ROD))
@@ -185,18 +185,18 @@ class Drawing:
         across = np.cross(self.view.axes[2], b - a)
         across = s.diameter / 2 * across / (np.linalg.norm(across) or 1)
         zigzag = np.concatenate([[0, 0], np.tile([1, -1], TURNS), [0, 0]])
-        way = np.concatenate([[0], np.linspace(0.1, 0.9, 2 * TURNS + 2), [1]])
-        yield from self.tube(a + way[:, None] * (b - a) + zigzag[:, None] * across, s.diameter / 10, rgb(COIL))
+        fraction = np.concatenate([[0], np.linspace(0.1, 0.9, 2 * TURNS + 2), [1]])
+        yield from self.tube(a + fraction[:, None] * (b - a) + zigzag[:, None] * across, s.diameter / 10, rgb(COIL))
 
     def arrow(self, s: g.Arrow, k: int, _: Any) -> Pieces:
-        """A shaft and a head; its length is that part of the longest one."""
+        """Yield shaft and head of an arrow, scaled by the longest arrow of its quantity."""
         longest = self.longest[s.quantity]
         vector = s.vector[k] * (ARROW * self.scene.size / longest if longest else 0)
-        at, tip = self.view.seen(np.array([s.at[k], s.at[k] + vector]))
-        way = (tip - at)[:2]
-        length, head = float(np.linalg.norm(way)), 0.03 * self.scene.size
+        at, tip = self.view.project(np.array([s.at[k], s.at[k] + vector]))
+        shaft = (tip - at)[:2]
+        length, head = float(np.linalg.norm(shaft)), 0.03 * self.scene.size
         if length > 0:
-            along = way / length
+            along = shaft / length
             across = np.array([-along[1], along[0]])
             neck = max(length - head, 0) * along + at[:2]
             near, colour = max(at[2], tip[2]) + self.scene.size, rgb(ARROWS[s.quantity])
@@ -205,12 +205,12 @@ class Drawing:
             yield Polygon(np.array([neck + head / 3 * across, tip[:2], neck - head / 3 * across]), near, colour)
 
     def curve(self, s: g.Curve, k: int, colour: np.ndarray) -> Pieces:
-        """A tube along the cubics between the points."""
+        """Yield a tube along the cubics between the points."""
         rest = self.undeformed(s, k)
         points = rest + self.deformation * (s.points[k] - rest)
         slope = np.gradient(rest, axis=0)
         tangents = slope + self.deformation * (s.tangents[k] - slope)
-        x = np.linspace(0, 1, BETWEEN + 1)[:, None, None]
+        x = np.linspace(0, 1, PIECES + 1)[:, None, None]
         a, b = (2 * x - 3) * x * x + 1, (x - 2) * x * x + x
         pieces = a * points[:-1] + (1 - a) * points[1:] + b * tangents[:-1] + (x - 1) * x * x * tangents[1:]
         values = next((v.entries[k] for v in s.values if v.name == self.by), None)
@@ -221,18 +221,18 @@ class Drawing:
         yield from self.tube(axis, float(np.mean(s.section)), colour)
 
     def undeformed(self, s: g.Curve, k: int) -> np.ndarray:
-        """Return the points of the world where those of a curve would be without deformation."""
+        """Return the undeformed points of a curve, in the world."""
         if s.rest is not None:
             return _at(s.rest, s.rest_points, k)
         first, last = s.points[k, 0], s.points[k, -1]
-        return first + np.array(fractions(s))[:, None] * (last - first)
+        return first + np.array(chord_fractions(s))[:, None] * (last - first)
 
     def mesh(self, s: g.Mesh, k: int, colour: np.ndarray) -> Pieces:
-        """Its triangles, deformed."""
-        moved = s.vertices
+        """Yield the deformed triangles of a mesh."""
+        vertices = s.vertices
         if s.q is not None and s.modes is not None:
-            moved = moved + self.deformation * np.tensordot(s.q[k], s.modes, 1)
-        yield from self.faces(_at(s.pose, moved, k), s.triangles, colour)
+            vertices = vertices + self.deformation * np.tensordot(s.q[k], s.modes, 1)
+        yield from self.faces(_at(s.pose, vertices, k), s.triangles, colour)
 
 
 DRAW: dict[type, Callable[[Drawing, Any, int, Any], Pieces]] = {
@@ -249,7 +249,7 @@ DRAW: dict[type, Callable[[Drawing, Any, int, Any], Pieces]] = {
 
 
 def rgb(text: str) -> np.ndarray:
-    """Return a colour as numbers from 0 to 1."""
+    """Return red, green and blue of a colour "#rrggbb", 0 to 1."""
     return np.array([int(text[k : k + 2], 16) / 255 for k in (1, 3, 5)])
 
 
@@ -259,4 +259,4 @@ def _circle() -> np.ndarray:
 
 
 def _at(pose: g.Pose, points: Any, k: int) -> np.ndarray:
-    return placed(g.Pose(pose.r[k : k + 1], pose.T[k : k + 1]), points)[0]
+    return in_world(g.Pose(pose.r[k : k + 1], pose.T[k : k + 1]), points)[0]

@@ -1,4 +1,4 @@
-"""Which times of a run are frames of its picture."""
+"""Select the times of a run that become frames of its animation."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import numpy as np
 FRAMES = 2000
 
 
-def thinned(time: np.ndarray, frames: int = FRAMES) -> np.ndarray:
-    """Return the places of about so many times, evenly spread; the first, the last and both sides of jumps are among them.
+def select_frames(time: np.ndarray, frames: int = FRAMES) -> np.ndarray:
+    """Return indices of evenly spaced times, with the first, the last and both sides of every jump.
 
     Parameters
     ----------
     time : array, shape (times,)
         Not decreasing; equal times are the two sides of a jump.
     frames : int
-        At least 2. There are more only for the sides of jumps.
+        Number of frames, at least 2. Only the sides of jumps add to it.
     """
     if len(time) <= frames:
         return np.arange(len(time))

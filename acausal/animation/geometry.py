@@ -1,8 +1,8 @@
-"""Kinds of geometry that parts say they look like: points, axes and lengths, and nothing of mechanics.
+"""Shapes of parts in animations: points, axes and lengths, without mechanics.
 
-What is resolved in the world may vary with time: expressions of variables, as in an equation, or numbers. What is resolved
-in a pose and sizes do not, but for the center of a Box or Sphere: numbers, or expressions of parameters; a size that is None
-suits the scene.
+Quantities that are resolved in the world may vary with time: they are expressions of variables, as in an equation, or numbers.
+Sizes and quantities that are resolved in a pose are constant, except for the center of a Box or Sphere: they are numbers or
+expressions of parameters. A size that is None takes a default that suits the scene.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ STYLES, QUANTITIES = get_args(Style), get_args(Quantity)
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """Where a rigid shape is.
+    """Position and orientation of a rigid shape.
 
     Parameters
     ----------
     r : shape (3,)
         Position of the origin of its axes, resolved in the world, in m.
     T : shape (3, 3)
-        Rotation matrix from the world to these axes.
+        Rotation matrix from the world to its axes.
     """
 
     r: Any
@@ -34,7 +34,7 @@ class Pose:
 
 @dataclass(frozen=True, eq=False)
 class Ground:
-    """Grid through the origin of the world, normal to `up` (3,), resolved in the world; None is along +y."""
+    """Grid through the origin of the world, normal to `up` (3,), resolved in the world; None stands for +y."""
 
     up: Any = None
 
@@ -80,7 +80,7 @@ class Axle:
 
 @dataclass(frozen=True, eq=False)
 class Span:
-    """What spans two moving points (3,), resolved in the world."""
+    """Rod, rail or coil between two moving points (3,), resolved in the world."""
 
     start: Any
     end: Any
@@ -99,7 +99,7 @@ class Arrow:
 
 @dataclass(frozen=True, eq=False)
 class Values:
-    """A quantity along a curve, by which it is coloured: one entry for each point, or a function that makes them if asked."""
+    """Values to colour a curve by: one entry for each point, or a function that returns these and is called on request."""
 
     name: str
     unit: str
@@ -113,20 +113,20 @@ class Curve:
     Parameters
     ----------
     points : shape (n, 3)
-        Resolved in the world, in m.
+        Points, resolved in the world, in m.
     tangents : shape (n, 3), optional
-        Derivatives by a parameter that grows by 1 from each point to the next; None lets the curve pass smoothly.
+        Derivatives with respect to a parameter that grows by 1 from each point to the next; by default of a smooth curve.
     section : pair
-        Half-axes of its ellipse along `up` x tangent and along `up`, in m; None suits the scene.
+        Half-axes of the elliptic section along `up` x tangent and along `up`, in m; None for a default that suits the scene.
     up : shape (3,), optional
         Direction of the second half-axis at the first point, resolved in the world.
     rest : Pose, optional
-        Where it is undeformed, with `rest_points`. Deformations are measured from the chord where it is None, and where
-        something else stands at the end that is not at rest.
+        Pose of the undeformed curve, with `rest_points`. Deformations are measured from the chord if it is None, or if another
+        shape is attached to the end that moves relative to it.
     rest_points : shape (n, 3), optional
-        Undeformed points, resolved in `rest`; for the chord their distances from the first count.
+        Undeformed points, resolved in `rest`; their distances from the first one also divide the chord.
     values : sequence of Values
-        By which it can be coloured.
+        Values to colour the curve by.
     """
 
     points: Any
@@ -140,16 +140,16 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Skin of a body, which deforms by modes.
+    """Surface of a body that deforms by modes.
 
     Parameters
     ----------
     pose : Pose
-        Its axes.
+        Pose of the body.
     vertices : array, shape (n, 3)
-        Undeformed, resolved in the pose, in m.
+        Undeformed vertices, resolved in the pose, in m.
     triangles : array of int, shape (m, 3)
-        Outward anticlockwise.
+        Rows of `vertices`, anticlockwise from outside.
     modes : array, shape (k, n, 3), optional
         Displacements of the vertices for unit coordinates, resolved in the pose.
     q : shape (k,), optional

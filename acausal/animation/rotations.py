@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-# A matrix that is farther than this from a rotation is none; integrated ones drift by the tolerance of the run.
-NO_ROTATION = 1e-2
+# Largest error of the products of unit vectors in a rotation matrix; integrated ones drift by the tolerance of the run.
+ORTHONORMAL = 1e-2
 
 
 def quaternions(T: np.ndarray) -> np.ndarray:
-    """Return quaternions (w, x, y, z) that turn vectors of a frame into the world, their signs continuous in time.
+    """Return quaternions (w, x, y, z) of the rotation from a frame to the world, continuous in sign.
 
     Parameters
     ----------
@@ -20,23 +20,23 @@ def quaternions(T: np.ndarray) -> np.ndarray:
     Returns
     -------
     array, shape (times, 4)
-        Of length 1; w of the first is not negative.
+        Unit quaternions; w of the first is not negative.
 
     Raises
     ------
     ValueError
-        If a matrix is no rotation.
+        If a matrix is not a rotation matrix.
     """
-    if np.max(np.abs(T @ T.transpose(0, 2, 1) - np.eye(3)), initial=0) > NO_ROTATION or np.any(np.linalg.det(T) < 0):
-        raise ValueError("no rotation matrix")
+    if np.max(np.abs(T @ T.transpose(0, 2, 1) - np.eye(3)), initial=0) > ORTHONORMAL or np.any(np.linalg.det(T) < 0):
+        raise ValueError("not a rotation matrix")
     q = np.roll(Rotation.from_matrix(T.transpose(0, 2, 1)).as_quat(), 1, axis=1)
     if len(q) and q[0, 0] < 0:
         q[0] *= -1
-    turned = np.where(np.sum(q[1:] * q[:-1], axis=1) < 0, -1.0, 1.0)
-    q[1:] *= np.cumprod(turned)[:, None]
+    signs = np.where(np.sum(q[1:] * q[:-1], axis=1) < 0, -1.0, 1.0)
+    q[1:] *= np.cumprod(signs)[:, None]
     return q
 
 
-def turns(q: np.ndarray) -> np.ndarray:
-    """Return the angles in rad from each of some quaternions, shape (times, 4), to the next, at most a half turn."""
+def rotation_angles(q: np.ndarray) -> np.ndarray:
+    """Return the angles in rad between successive quaternions, shape (times, 4); each at most pi."""
     return 2 * np.arccos(np.minimum(np.abs(np.sum(q[1:] * q[:-1], axis=1)), 1))

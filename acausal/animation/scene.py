@@ -1,4 +1,4 @@
-"""What a run looks like, in numbers: shapes over time, their extent, and the sizes that suit them."""
+"""Evaluate the scene of a run: its shapes over time, their extent and their default sizes."""
 
 from __future__ import annotations
 
@@ -10,27 +10,28 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen, called, collect
-from acausal.animation.gaps import without_gaps
-from acausal.animation.reading import Evaluate, read
-from acausal.animation.rests import untorn
-from acausal.animation.sound import check
+from acausal.animation.collect import PartShape, call_user_code, collect
+from acausal.animation.deformation_reference import with_references
+from acausal.animation.evaluation import Evaluate, evaluate_shapes
+from acausal.animation.missing_frames import fill_missing_frames
+from acausal.animation.validation import check_shape
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 
-# Sizes that suit a scene, as fractions of its median extent: thin beside its parts, and still to be seen.
+# Default sizes as fractions of the median extent of the scene: thin beside the parts, but visible.
 DIAMETER = {g.Cylinder: 0.02, g.Sphere: 0.03, g.Axle: 0.025}
 AXLE = 0.06
 SPAN = {"rod": 0.008, "rail": 0.012, "coil": 0.04}
 TUBE = 0.006
-# What is a point beside its path, as a body alone without sizes, is as large as this part of the path suits.
+# A scene whose median extent is below POINT times that of its path, such as a single body without sizes, takes the fraction
+# ALONE of its path as its size.
 POINT, ALONE = 1e-6, 0.5
 ALL = "all"
 
 
 @dataclass(frozen=True)
 class Plot:
-    """A scalar under the picture: name, unit as declared, and its expression (1, 1) or values of shape (times,)."""
+    """A plotted scalar: name, unit as declared, and its expression (1, 1) or values of shape (times,)."""
 
     name: str
     unit: str
@@ -39,22 +40,22 @@ class Plot:
 
 @dataclass(frozen=True)
 class Run:
-    """What is shown of a run.
+    """A run to be animated.
 
     Parameters
     ----------
     tree : Component
         The bound model.
     time : array, shape (times,)
-        Of the frames, in s, not decreasing; equal times are the two sides of a jump.
+        Times of the frames, in s, not decreasing; equal times are the two sides of a jump.
     evaluate : callable
-        From a column of n expressions in the model's symbols to an array of shape (times, n).
+        Maps a column of n expressions in the model's symbols to an array of shape (times, n).
     plots : sequence of Plot
-        With expressions.
+        Plotted scalars, as expressions.
     title : str
-        Name of what moves.
+        Name of the model.
     stopped : str, optional
-        Why the run ended early.
+        Reason why the run ended early.
     """
 
     tree: Component
@@ -67,69 +68,71 @@ class Run:
 
 @dataclass(frozen=True)
 class Scene:
-    """A run in numbers.
+    """An evaluated run.
 
     Parameters
     ----------
     run : Run
-        Where they come from.
-    seen : list of Seen
+        Run that was evaluated.
+    shapes : list of PartShape
         Shapes with arrays in place of expressions.
     plots : list of Plot
-        With values.
+        Plotted scalars, as values.
     low, high : array, shape (3,)
-        Corners of the box that holds everything at all times, in m, along the axes of the world.
+        Corners of the bounding box over all times, in m, resolved in the world.
     size : float
-        Median over time of the diagonal of the box that holds everything at a time, in m; where this is a point, a part of
-        its path.
+        Median over time of the diagonal of the bounding box, in m; for a moving point a fraction of the extent of its path.
     up : array, shape (3,)
         Unit vector, resolved in the world.
     """
 
     run: Run
-    seen: list[Seen]
+    shapes: list[PartShape]
     plots: list[Plot]
     low: np.ndarray
     high: np.ndarray
     size: float
     up: np.ndarray
 
-    def suited(self, size: float) -> Scene:
-        """Return the scene with the sizes that were open, as suits an extent in m."""
-        return replace(self, size=size, seen=[replace(one, shape=_suited(one.shape, size)) for one in self.seen])
+    def with_default_sizes(self, size: float) -> Scene:
+        """Return the scene with default sizes, for a scene of the given size in m, where none are declared."""
+        return replace(
+            self, size=size, shapes=[replace(one, shape=_with_default_sizes(one.shape, size)) for one in self.shapes]
+        )
 
 
-def shown(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[Seen]]:
-    """Return the shapes of models, with those of the values along curves that were asked for or cost nothing.
+def shapes_of(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[PartShape]]:
+    """Return the shapes of models, with the values along curves that are requested or already evaluated.
 
     Parameters
     ----------
     trees : sequence of Component
         Bound models.
     values : sequence of str
-        Names of values; "all" are all.
+        Names of the requested values; "all" for all.
 
     Raises
     ------
     DeclarationError
-        If there is nothing to be seen of a model, or no model has values of such a name.
+        If a model has nothing to draw, or no model has values of a requested name.
     """
     found = [collect(tree) for tree in trees]
     for tree, seen in zip(trees, found, strict=True):
         if all(isinstance(one.shape, g.Ground | g.Arrow) for one in seen):
             raise DeclarationError(
-                f"there is nothing to be seen in {type(tree).__name__}: none of its parts has a shape. Yield some from shapes(), "
-                "for instance `yield geometry.Sphere(geometry.Pose(self.frame.r_0, self.frame.R.T))`."
+                f"{type(tree).__name__} cannot be animated: none of its parts has a shape. Yield shapes from shapes(), for "
+                "instance `yield geometry.Sphere(geometry.Pose(self.frame.r_0, self.frame.R.T))`."
             )
     known = {v.name for seen in found for one in seen if isinstance(one.shape, g.Curve) for v in one.shape.values}
     missing = [name for name in values if name not in known | {ALL}]
     if missing:
-        there = ", ".join(f'"{name}"' for name in sorted(known)) or "none"
-        raise DeclarationError(
-            f'there are no values "{missing[0]}" along the curves that are shown; there are: {there}.'
-        )
+        available = ", ".join(f'"{name}"' for name in sorted(known)) or "none"
+        raise DeclarationError(f'no curve of the animation has values "{missing[0]}"; available values: {available}.')
     return [
-        [replace(one, shape=called(partial(_with_values, one.shape, values), one.path, one.kind)) for one in seen]
+        [
+            replace(one, shape=call_user_code(partial(_with_values, one.shape, values), one.path, one.kind))
+            for one in seen
+        ]
         for seen in found
     ]
 
@@ -137,26 +140,26 @@ def shown(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[S
 def _with_values(shape: Any, names: Sequence[str]) -> Any:
     if not isinstance(shape, g.Curve):
         return shape
-    kept = [v for v in shape.values if not callable(v.entries) or v.name in names or ALL in names]
+    evaluated = [v for v in shape.values if not callable(v.entries) or v.name in names or ALL in names]
     return replace(
-        shape, values=tuple(replace(v, entries=v.entries() if callable(v.entries) else v.entries) for v in kept)
+        shape, values=tuple(replace(v, entries=v.entries() if callable(v.entries) else v.entries) for v in evaluated)
     )
 
 
-def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
-    """Evaluate a run and measure it.
+def scene_of(run: Run, seen: Sequence[PartShape]) -> Scene:
+    """Return the scene of a run.
 
     Parameters
     ----------
     run : Run
-        With one time or more.
-    seen : sequence of Seen
-        What `shown` returned for its tree.
+        Run with at least one time.
+    seen : sequence of PartShape
+        Shapes of its tree, from `shapes_of`.
     """
-    found, scalars = read(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
+    found, scalars = evaluate_shapes(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
     for one in found:
-        check(one)
-    found = untorn(without_gaps(found, run.time))
+        check_shape(one)
+    found = with_references(fill_missing_frames(found, run.time))
     boxes = [box for box in (_box(one.shape) for one in found) if box is not None]
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)
@@ -171,8 +174,8 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
 
 
 def _box(shape: Any) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return the corners, shape (times, 3) each, of what a shape fills."""
-    points = extremes(shape)
+    """Return the corners, shape (times, 3) each, of the bounding box of a shape; None if it has none."""
+    points = bounding_points(shape)
     if points is None:
         return None
     diameter = getattr(shape, "diameter", None)
@@ -180,8 +183,8 @@ def _box(shape: Any) -> tuple[np.ndarray, np.ndarray] | None:
     return points.min(axis=1) - margin, points.max(axis=1) + margin
 
 
-def extremes(shape: Any) -> np.ndarray | None:
-    """Return points that hold a shape between them, shape (times, points, 3), in the world; None of what fills no room."""
+def bounding_points(shape: Any) -> np.ndarray | None:
+    """Return points of the world, shape (times, points, 3), whose bounding box holds a shape; None of the ground."""
     if isinstance(shape, g.Curve):
         return shape.points
     if isinstance(shape, g.Span):
@@ -189,11 +192,11 @@ def extremes(shape: Any) -> np.ndarray | None:
     if isinstance(shape, g.Arrow):
         return shape.at[:, None]
     local = _LOCAL.get(type(shape))
-    return None if local is None else placed(shape.pose, local(shape))
+    return None if local is None else in_world(shape.pose, local(shape))
 
 
-def placed(pose: g.Pose, points: np.ndarray) -> np.ndarray:
-    """Return points of a pose, (points, 3), in the world: shape (times, points, 3)."""
+def in_world(pose: g.Pose, points: np.ndarray) -> np.ndarray:
+    """Return points that are fixed to a pose, (points, 3), in the world: shape (times, points, 3)."""
     return pose.r[:, None] + np.asarray(points, dtype=float) @ pose.T
 
 
@@ -216,37 +219,37 @@ _LOCAL: dict[type, Callable[[Any], np.ndarray]] = {
 }
 
 
-def _suited(shape: Any, size: float) -> Any:
-    """Fill in the sizes that are open."""
+def _with_default_sizes(shape: Any, size: float) -> Any:
+    """Return a shape with default sizes where none are declared."""
     more: dict[str, Any] = {}
     if isinstance(shape, g.Curve):
         section = np.asarray(shape.section, dtype=float)
         other = np.nanmax(section) if np.isfinite(section).any() else TUBE * size
         more["section"] = np.where(np.isfinite(section), section, other)
         if shape.tangents is None:
-            more["tangents"] = smooth(shape.points)
+            more["tangents"] = smooth_tangents(shape.points)
     elif hasattr(shape, "diameter"):
-        usual = SPAN[shape.style] if isinstance(shape, g.Span) else DIAMETER[type(shape)]
-        more["diameter"] = usual * size if shape.diameter is None else float(shape.diameter)
+        default = SPAN[shape.style] if isinstance(shape, g.Span) else DIAMETER[type(shape)]
+        more["diameter"] = default * size if shape.diameter is None else float(shape.diameter)
         if isinstance(shape, g.Axle):
             more["length"] = AXLE * size if shape.length is None else float(shape.length)
     return replace(shape, **more)
 
 
-def smooth(points: np.ndarray) -> np.ndarray:
-    """Return tangents of a smooth curve through points, shape (times, n, 3): differences of second order.
+def smooth_tangents(points: np.ndarray) -> np.ndarray:
+    """Return tangents at the points of a curve, shape (times, n, 3), by differences of second order.
 
-    Of the parameter that grows by 1 from each point to the next; within, these are the tangents of Catmull and Rom.
+    The parameter grows by 1 from each point to the next. At inner points these are the tangents of a Catmull-Rom spline.
     """
     if points.shape[1] < 2:
         return np.zeros_like(points)
     return np.gradient(points, axis=1, edge_order=min(points.shape[1] - 1, 2))
 
 
-def fractions(curve: g.Curve) -> list[float]:
-    """Return where the points of a curve are along its chord, undeformed, from 0 to 1."""
+def chord_fractions(curve: g.Curve) -> list[float]:
+    """Return the undeformed positions of the points of a curve along its chord, as fractions from 0 to 1."""
     if curve.rest_points is not None:
-        way = np.linalg.norm(curve.rest_points - curve.rest_points[0], axis=1)
+        distance = np.linalg.norm(curve.rest_points - curve.rest_points[0], axis=1)
     else:
-        way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(curve.points[0], axis=0), axis=1))])
-    return (way / way[-1] if way[-1] else np.linspace(0, 1, len(way))).tolist()
+        distance = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(curve.points[0], axis=0), axis=1))])
+    return (distance / distance[-1] if distance[-1] else np.linspace(0, 1, len(distance))).tolist()

@@ -10,10 +10,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from acausal.animation.document import scenes, written
-from acausal.animation.frames import FRAMES, thinned
+from acausal.animation.document import document_of, scenes
+from acausal.animation.frames import FRAMES, select_frames
 from acausal.animation.page import html
-from acausal.animation.scene import Plot, Run, shown
+from acausal.animation.scene import Plot, Run, shapes_of
 from acausal.errors import AcausalError, DeclarationError, ExportError
 from acausal.language.component import Component
 from acausal.language.value_checks import shown as code
@@ -77,7 +77,7 @@ def write(results: Mapping[str, Animatable], path: str | Path, options: Animatio
     found = scenes({name: run_of(result, options) for name, result in results.items()}, options.values)
     if _ending(path) in PAGES:
         with whole(path) as file:
-            file.write(html(written(found, options.values, title, options.deformation)))
+            file.write(html(document_of(found, options.values, title, options.deformation)))
         return
     from acausal.result.films import film, still
 
@@ -112,7 +112,7 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
         If not; the message lists the available values.
     """
     if isinstance(tree, Component):
-        shown([tree], values)
+        shapes_of([tree], values)
 
 
 def in_notebook(result: Animatable) -> str | None:
@@ -124,7 +124,7 @@ def in_notebook(result: Animatable) -> str | None:
         The result.
     """
     try:
-        page = html(written(scenes({result.title: run_of(result)})))
+        page = html(document_of(scenes({result.title: run_of(result)})))
     except AcausalError:
         return None
     return (
@@ -148,8 +148,8 @@ def run_of(result: Animatable, options: AnimationOptions = DEFAULT) -> Run:
             "where it was simulated, or simulate again."
         )
     if not result.time.size:
-        raise DeclarationError(f"{result!r} is empty: it has no times to show.")
-    places = thinned(result.time, options.frames)
+        raise DeclarationError(f"{result!r} is empty: there is no time at which something could be seen.")
+    places = select_frames(result.time, options.frames)
     quantities = [find(tree, key) for key in options.plots or result.outputs]
     plots = [Plot(name, unit, q[index].column) for q in quantities for index, name, unit in q.entries]
     title, stopped = result.title or type(tree).__name__, result.stats.get("stopped")

@@ -107,7 +107,7 @@ class _Picture:
     def _lay_out(self, view: Camera, low: np.ndarray, high: np.ndarray) -> None:
         from matplotlib.collections import PolyCollection
 
-        seen = view.seen(corners(low, high))[:, :2]
+        seen = view.project(corners(low, high))[:, :2]
         middle, size = (seen.min(axis=0) + seen.max(axis=0)) / 2, np.ptp(seen, axis=0) + 0.1 * self.scenes[0].size
         height = int(np.clip(WIDTH * size[1] / size[0], LEAST, MOST)) // 2 * 2
         scale = max(size[0] / WIDTH, size[1] / (height - 50)) / (1 - 2 * MARGIN)
@@ -129,7 +129,7 @@ class _Picture:
 
     def _colour_bar(self, by: str) -> Any:
         """Draw the colour bar; return the function from values to colours, None without values."""
-        found = [v for s in self.scenes for one in s.seen for v in getattr(one.shape, "values", ()) if v.name == by]
+        found = [v for s in self.scenes for one in s.shapes for v in getattr(one.shape, "values", ()) if v.name == by]
         if not found:
             return None
         from matplotlib.cm import ScalarMappable

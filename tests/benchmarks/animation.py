@@ -22,7 +22,7 @@ RUNS = {
 def measured(name: str, values: list[str]) -> tuple[int, float, float, float]:
     """Return frames, size of the file in MB, seconds and memory in MB; alone in its process."""
     import acausal as ac
-    from acausal.animation.frames import thinned
+    from acausal.animation.frames import select_frames
     from models import SliderCrank, SpinUp
 
     warnings.simplefilter("ignore")
@@ -35,7 +35,7 @@ def measured(name: str, values: list[str]) -> tuple[int, float, float, float]:
         before, begun = _memory("VmRSS"), time.process_time()
         result.animate(file, values=values)
         seconds = time.process_time() - begun
-        return len(thinned(result.time)), file.stat().st_size / 1e6, seconds, _memory("VmHWM") - before
+        return len(select_frames(result.time)), file.stat().st_size / 1e6, seconds, _memory("VmHWM") - before
 
 
 def _memory(name: str) -> float:

@@ -1,7 +1,7 @@
-// The chosen part: followed by the camera, traced by a line.
+// Selection of a part, to be followed by the camera or traced by a line.
 
 Object.assign(Viewer.prototype, {
-  /** A click in the picture: the point that was touched is what is followed or traced. */
+  /** Select the part under a click; the clicked point is followed or traced. */
   pick(found) {
     this.choose(found?.part >= 0 ? `${found.run.number}/${found.part}` : "", found);
   },
@@ -13,7 +13,7 @@ Object.assign(Viewer.prototype, {
     this.chosen = point ? { run, part, point } : null;
     $("part").value = point ? key : "";
     for (const id of ["follow", "trace"]) $(id).disabled = !point && !(id === "follow" && this.views.followed);
-    this.change();
+    this.requestDraw();
   },
 
   followPath(path) {
@@ -28,12 +28,12 @@ Object.assign(Viewer.prototype, {
 
   followChosen() {
     this.views.follow(this.views.followed ? null : (this.chosen?.point ?? null));
-    this.change();
+    this.requestDraw();
   },
 
   traceChosen() {
     if (this.chosen) this.traces.toggle(this.chosen.run, this.chosen.part, this.chosen.point);
-    this.change();
+    this.requestDraw();
   },
 
   chosenTraced() {

@@ -1,4 +1,4 @@
-// Time of the picture: playing, speed, steps from frame to frame.
+// Animation time: play, speed, single frames.
 
 class Clock {
   constructor(runs, changed) {
@@ -9,21 +9,21 @@ class Clock {
     this.t = this.first;
     this.playing = false;
     this.loop = true;
-    this.natural = this.suitable();
-    this.speed = this.natural;
+    this.defaultSpeed = this.chooseSpeed();
+    this.speed = this.defaultSpeed;
   }
 
-  /** Real time where the run then lasts 4 to 12 s, else the round factor with which it lasts 5 to 10 s. */
-  suitable() {
+  /** Default speed: real time if the run then takes 4 to 12 s, otherwise a round factor with which it takes about 5 to 10 s. */
+  chooseSpeed() {
     const duration = this.last - this.first;
     if (!(duration > 0) || (duration >= 4 && duration <= 12)) return 1;
     return roundDown(duration / 4.999);
   }
 
-  /** The next round factor; between 1/1000 and 100, or as far as the natural one is. */
+  /** Set the next round speed, from 1/1000 to 100 or to the default speed if that is outside. */
   faster(sign) {
-    const low = Math.min(1e-3, this.natural);
-    const high = Math.max(100, this.natural);
+    const low = Math.min(1e-3, this.defaultSpeed);
+    const high = Math.max(100, this.defaultSpeed);
     const around = [1, 2, 5, 10].map((digit) => digit * 10 ** Math.floor(Math.log10(this.speed) + 1e-9));
     const steps = [around[2] / 10, ...around];
     const close = 1e-6 * this.speed;
@@ -41,7 +41,7 @@ class Clock {
     this.changed();
   }
 
-  /** The frame before (-1) or after (1) the present time, as often as told. */
+  /** Move by `count` frames, backwards if negative. */
   step(count) {
     this.pause();
     const { frames } = this;
@@ -63,10 +63,10 @@ class Clock {
     this.changed();
   }
 
-  /** Go on by the real time since the last picture. */
+  /** Advance by the real time since the last drawing. */
   tick(now) {
     if (!this.playing) return;
-    // A page in the background is not called: it goes on where it was, and does not jump.
+    // Browsers do not draw hidden pages: limit the step, so that time continues where it stopped.
     const elapsed = this.before === null ? 0 : Math.min((now - this.before) / 1000, 0.25);
     this.before = now;
     this.t += elapsed * this.speed;

@@ -1,12 +1,15 @@
-// Colours of parts, and of values: a table of colours, its range over all runs, and the bar that explains it.
+// Colours of parts and of values, with the colour bar.
 
 const PALETTE = ["#4c8bf5", "#f2994a", "#27ae80", "#c868d8", "#e2596b", "#2db5c9", "#b59f3b", "#8d7bf0"];
 const OF_KIND = {
   axle: "#5b6472", coil: "#d08a2e", rod: "#8f99a8", rail: "#7b8594", force: "#e5484d", torque: "#8e4ec6", ground: "#888888",
 };
-const GHOST = ["#3d6fd0", "#e0218a", "#7a3ff2", "#0f9d9d"]; // of runs and traces: none is a body's
+const GHOST = ["#3d6fd0", "#e0218a", "#7a3ff2", "#0f9d9d"]; // of runs and traces, different from the colours of bodies
 
-/** The colour of a shape that has none of its own: by kind, and by part for bodies. */
+/** Linear RGB of a colour "#rrggbb", for materials, lights and vertices: three.js r130 does not convert colours itself. */
+const linear = (colour) => new THREE.Color(colour).convertSRGBToLinear();
+
+/** Colour of a shape: its own, or by kind, or by part for bodies. */
 function colourOf(shape, bodies) {
   const known = shape.color ?? OF_KIND[shape.style ?? shape.quantity ?? shape.kind];
   if (known) return known;
@@ -23,7 +26,7 @@ class ColourScale {
     this.name = "none";
   }
 
-  /** All values that shapes offer: name, unit and range over all runs and times. */
+  /** All values of the shapes: name, unit and range over all runs and times. */
   static offered(runs) {
     const found = new Map();
     const add = (name, unit, low, high) => {
@@ -49,7 +52,7 @@ class ColourScale {
     this.name = entry ? entry.name : "none";
     if (!entry) return;
     let { low, high } = entry;
-    // Values of both signs get a scale whose middle is zero.
+    // Values of both signs have a scale symmetric about zero.
     const both = low < -1e-6 * high && high > -1e-6 * low;
     if (both) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
     else if (low >= 0) low = 0;
@@ -57,8 +60,8 @@ class ColourScale {
     if (!(high > low)) [low, high] = [0, 1];
     Object.assign(this, { low, high, unit: entry.unit, stops: both ? DIVERGING : SEQUENTIAL });
     this.table = new Float32Array(3 * 256);
-    // Mixed as the eye and the bar of the page have it, stored as light is added.
-    const colours = this.stops.map((c) => new THREE.Color(c).convertLinearToSRGB());
+    // Interpolated in sRGB, as in the bar of the page; stored as linear RGB.
+    const colours = this.stops.map((c) => new THREE.Color(c));
     for (let i = 0; i < 256; i++) {
       const place = (i / 255) * (colours.length - 1);
       const k = Math.min(Math.floor(place), colours.length - 2);
@@ -66,12 +69,12 @@ class ColourScale {
     }
   }
 
-  /** The place of a value in the table. */
+  /** Index of the colour of a value in the table. */
   place(value) {
     return 3 * Math.round(255 * clamp((value - this.low) / (this.high - this.low), 0, 1));
   }
 
-  /** Draw the bar with numbers and unit into an element. */
+  /** Draw the colour bar with numbers and unit into an element. */
   draw(element) {
     element.hidden = !this.active;
     if (!this.active) return;
@@ -79,13 +82,13 @@ class ColourScale {
     element.replaceChildren(
       make("div", { className: "bar-name", textContent: `${this.name} (${this.unit || "1"})` }),
       make("div", { className: "bar-strip" }),
-      make("div", { className: "bar-numbers" }, [this.low, middle, this.high].map((v) => make("span", { textContent: written(v, 3) }))),
+      make("div", { className: "bar-numbers" }, [this.low, middle, this.high].map((v) => make("span", { textContent: formatNumber(v, 3) }))),
     );
     element.children[1].style.background = `linear-gradient(to right, ${this.stops.join(", ")})`;
   }
 }
 
-/** An element with properties and children. */
+/** Create an element with properties and children. */
 function make(tag, properties = {}, children = []) {
   const element = document.createElement(tag);
   Object.assign(element, properties);

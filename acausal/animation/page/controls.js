@@ -25,7 +25,7 @@ const KEYS = [
   ["drag", "turn; right button or two fingers: move; wheel: nearer"],
 ];
 
-/** Keys to actions of the viewer; the key is that of the event. */
+/** Actions of the viewer by key, as named by keyboard events. */
 function keyActions(viewer) {
   const { clock } = viewer;
   const deform = (sign) => viewer.deform(10 ** (Math.log10(viewer.stage.deformation) + sign * 0.25));
@@ -68,7 +68,7 @@ function listenToKeys(viewer) {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const { tagName, id } = event.target;
-    // A button has its own space, a list its letters, a slider other than that of time its arrows.
+    // Buttons use the space bar themselves, lists letters, and sliders other than that of time the arrow keys.
     if (tagName === "SELECT" || (tagName === "DIALOG" && event.key !== "?")) return;
     if (["BUTTON", "SUMMARY"].includes(tagName) && event.key === " ") return;
     if (tagName === "INPUT" && id !== "time" && !/^[a-z?]$/i.test(event.key)) return;
@@ -79,14 +79,14 @@ function listenToKeys(viewer) {
   });
 }
 
-/** Connect what stands in the page; what the document has no use for is taken away. */
+/** Connect the controls of the page to the viewer. */
 function connectControls(viewer) {
   const { clock } = viewer;
   const press = (id, action) => $(id).addEventListener("click", () => action());
   press("play", () => (clock.playing ? clock.pause() : clock.play()));
   press("slower", () => clock.faster(-1));
   press("faster", () => clock.faster(1));
-  press("speed", () => clock.setSpeed(clock.natural));
+  press("speed", () => clock.setSpeed(clock.defaultSpeed));
   press("loop", () => viewer.loop(!clock.loop));
   press("record", () => viewer.recorder.toggle());
   press("dark", () => viewer.dark(!viewer.isDark()));
@@ -112,7 +112,7 @@ function connectControls(viewer) {
   releaseFocus();
 }
 
-/** What was worked with the pointer gives the keys back to the picture. */
+/** Return the keyboard focus to the animation after a control was used with the pointer. */
 function releaseFocus() {
   let pointed = false;
   addEventListener("pointerdown", () => (pointed = true), true);
@@ -134,7 +134,7 @@ function showState(viewer) {
   const now = clock.t.toFixed(Math.min(digits, 9));
   $("time").setAttribute("aria-valuetext", `${now} seconds`);
   $("now").textContent = `${now} s`;
-  $("speed").textContent = `\u00d7${written(clock.speed, 3)}`;
+  $("speed").textContent = `\u00d7${formatNumber(clock.speed, 3)}`;
   pressed("loop", clock.loop);
   pressed("record", Boolean(viewer.recorder.media));
   pressed("follow", Boolean(viewer.views.followed));
@@ -144,5 +144,5 @@ function showState(viewer) {
   $("show-plots").checked = !$("plots").hidden;
   $("ghosts").checked = stage.ghosts;
   $("deformation").value = Math.log10(stage.deformation);
-  $("deformation-said").textContent = `\u00d7${written(stage.deformation, 3)}`;
+  $("deformation-value").textContent = `\u00d7${formatNumber(stage.deformation, 3)}`;
 }

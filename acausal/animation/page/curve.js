@@ -7,35 +7,35 @@ class Curve {
     this.stage = context.stage;
     this.shape = shape;
     this.nodes = shape.points.length;
-    // Some hundred rings a beam: smooth to the eye with few elements, and not wasteful with many.
+    // About a hundred rings for each beam, whatever the number of its elements.
     this.parts = clamp(Math.ceil(96 / (this.nodes - 1)), 4, 32);
-    this.tube = new Tube((this.nodes - 1) * this.parts + 1, 20, context.look(shape, { vertexColors: true }));
+    this.tube = new Tube((this.nodes - 1) * this.parts + 1, 20, context.material(shape, { vertexColors: true }));
     this.object = this.tube.object;
-    this.plain = new THREE.Color(context.colour(shape)).toArray();
+    this.plain = linear(context.colour(shape)).toArray();
     context.group.add(this.object);
   }
 
-  /** Positions of the nodes and derivatives by the coordinate 0 ... 1 of an element, deformation scaled. */
-  line() {
+  /** Positions and tangents of the nodes with scaled deformation; the parameter grows by 1 along each element. */
+  centreline() {
     const points = this.shape.points.map((ks) => this.columns.vector(ks));
     const tangents = this.shape.tangents?.map((ks) => this.columns.vector(ks)) ?? slopes(points);
     const scale = this.stage.deformation;
     if (scale === 1 || !this.shape.rest) return { points, tangents };
     const rest = this.rest(points);
-    const drawn = points.map((p, i) => mix(rest[i], p, scale));
+    const drawn = points.map((p, i) => lerp(rest[i], p, scale));
     const straight = slopes(rest);
-    return { points: drawn, tangents: tangents.map((tangent, i) => mix(straight[i], tangent, scale)) };
+    return { points: drawn, tangents: tangents.map((tangent, i) => lerp(straight[i], tangent, scale)) };
   }
 
-  /** Where the nodes were if nothing deformed: on the chord, or with the frame of the beam. */
+  /** Undeformed positions of the nodes: on the chord, or fixed to the frame of the beam. */
   rest(points) {
     const { chord, fractions, pose, points: local } = this.shape.rest;
-    if (chord) return fractions.map((f) => mix(points[0], points[this.nodes - 1], f));
+    if (chord) return fractions.map((f) => lerp(points[0], points[this.nodes - 1], f));
     return local.map((p) => this.poses[pose].point(p));
   }
 
   update() {
-    const { points, tangents } = this.line();
+    const { points, tangents } = this.centreline();
     const places = [];
     const directions = [];
     const origin = this.stage.origin;
@@ -49,7 +49,7 @@ class Curve {
         directions.push(hermite(ends, [slope, (1 - s) * (1 - 3 * s), -slope, s * (3 * s - 2)]));
       }
     }
-    const least = this.stage.thinnest;
+    const least = this.stage.minRadius;
     const [a, b] = this.shape.section.map((half) => Math.max(half, least));
     const up = this.shape.up && this.columns.vector(this.shape.up);
     this.tube.place(places, directions, up, a, b);
@@ -85,11 +85,11 @@ class Curve {
       const distances = this.positions().map((p) => length(minus(p, touched)));
       node = distances.indexOf(Math.min(...distances));
     }
-    return () => this.line().points[node];
+    return () => this.centreline().points[node];
   }
 }
 
-/** Derivatives by the number of the point, as the neighbours tell them. */
+/** Tangents at points by central differences, one-sided at the ends. */
 function slopes(points) {
   const last = points.length - 1;
   return points.map((_, i) => {

@@ -1,6 +1,6 @@
-// The document's numbers: unpacked once, read at any time by cubic interpolation between the frames.
+// Numbers of the document: decompressed once, interpolated by cubics between the frames.
 
-/** Bytes from base64 of zlib. */
+/** Decode base64 and decompress zlib. */
 async function unpack(text) {
   if (typeof DecompressionStream !== "function") throw new Error("the browser is too old to unpack its numbers.");
   const letters = atob(text);
@@ -15,7 +15,7 @@ async function unpack(text) {
  *
  * A value between two frames is the cubic through both with the slopes of the parabolas through three frames. It is linear
  * in the values of four frames, so that one set of four weights serves every column. No weight reaches across equal times:
- * there the model jumped.
+ * these are the two sides of a jump.
  */
 class Columns {
   static async of(run) {
@@ -31,7 +31,7 @@ class Columns {
     return columns;
   }
 
-  /** The last frame that is not after a time. */
+  /** Index of the last frame at or before a time. */
   frameAt(t) {
     let [low, high] = [0, this.frames];
     while (high - low > 1) {
@@ -50,17 +50,17 @@ class Columns {
     this.weights = s > 0 ? this.between(i, s, span) : [0, 1, 0, 0];
   }
 
-  /** Weights of the frames i - 1 ... i + 2 at the fraction s of the span from i to i + 1. */
+  /** Weights of the frames i - 1 ... i + 2 at the fraction s of the interval from i to i + 1. */
   between(i, s, span) {
     const before = i > 0 ? this.time[i] - this.time[i - 1] : 0;
     const after = i + 2 < this.frames ? this.time[i + 2] - this.time[i + 1] : 0;
-    // Slopes times the span, as weights of the four frames.
-    let begin = before > 0 && parabola(before, span).map((w) => w * span);
-    let end = after > 0 && parabola(span, after).map((w) => w * span);
+    // Slopes times the length of the interval, as weights of the four frames.
+    let begin = before > 0 && slopeWeights(before, span).map((w) => w * span);
+    let end = after > 0 && slopeWeights(span, after).map((w) => w * span);
     begin = begin && [...begin, 0];
     end = end && [0, ...end];
     const chord = [0, -1, 1, 0];
-    // With one neighbour the value is that of the parabola, with none it is linear.
+    // With a neighbouring interval on one side only the interpolation is the parabola, with none it is linear.
     begin ||= end ? chord.map((c, k) => 2 * c - end[k]) : chord;
     end ||= chord.map((c, k) => 2 * c - begin[k]);
     const [h10, h01, h11] = [s * (1 - s) ** 2, s * s * (3 - 2 * s), s * s * (s - 1)];
@@ -68,11 +68,11 @@ class Columns {
   }
 
   at(k) {
-    return this.difference(k) + (this.offsets.get(k) ?? 0); // the weights of the frames add up to 1
+    return this.stored(k) + (this.offsets.get(k) ?? 0); // the weights of the frames add up to 1
   }
 
-  /** What is kept of a column in float32. */
-  difference(k) {
+  /** Interpolated value of a column without its offset. */
+  stored(k) {
     if (k >= this.varying) return this.data[this.varying * this.frames + (k - this.varying)];
     const place = k * this.frames + this.frame;
     const w = this.weights;
@@ -87,14 +87,14 @@ class Columns {
     return [this.at(ks[0]), this.at(ks[1]), this.at(ks[2])];
   }
 
-  /** A unit quaternion: its four columns are continuous in sign, so that each may be interpolated by itself. */
+  /** Unit quaternion; its columns are continuous in sign and therefore interpolated separately. */
   quaternion(ks) {
     const q = ks.map((k) => this.at(k));
     const size = Math.hypot(...q);
     return size > 0 ? q.map((v) => v / size) : [1, 0, 0, 0];
   }
 
-  /** All values of a column, one per frame or a single one if it is constant. */
+  /** All values of a column: one for each frame, or a single one if it is constant. */
   series(k) {
     const varies = k < this.varying;
     const first = varies ? k * this.frames : this.varying * this.frames + (k - this.varying);
@@ -104,8 +104,8 @@ class Columns {
   }
 }
 
-/** Weights of three values whose parabola gives the slope at the middle one; the steps are positive. */
-function parabola(before, after) {
+/** Weights of three values for the slope of their parabola at the middle one; step sizes are positive. */
+function slopeWeights(before, after) {
   const whole = before + after;
   return [-after / (before * whole), (after - before) / (before * after), before / (after * whole)];
 }

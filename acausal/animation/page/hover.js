@@ -1,4 +1,4 @@
-// The pointer over the picture: which part is there, and what to do with it.
+// Pointer over the scene: shows the part under it and selects it by a click.
 
 class Hover {
   constructor(stage, tip, chosen) {
@@ -9,7 +9,7 @@ class Hover {
     const element = $("glass");
     element.addEventListener("pointermove", (event) => {
       if (event.buttons) this.hide();
-      else this.later(event);
+      else this.schedule(event);
     });
     element.addEventListener("pointerleave", () => this.hide());
     element.addEventListener("pointerdown", (event) => (this.pressed = [event.clientX, event.clientY]));
@@ -20,21 +20,20 @@ class Hover {
     });
   }
 
-  /** One search a frame, however often the pointer tells. */
-  later(event) {
+  /** Search at most once for each drawing, with the latest event. */
+  schedule(event) {
     const waiting = this.event;
     this.event = event;
     if (waiting) return;
     requestAnimationFrame(() => {
       const last = this.event;
       this.event = null;
-      if (last) this.tell(last);
+      if (last) this.showTip(last);
     });
   }
 
   find(event) {
-    const box = this.stage.element.getBoundingClientRect();
-    const spot = this.stage.panelAt(event.clientX - box.left, event.clientY - box.top);
+    const spot = this.stage.panelAt(event);
     if (!spot || !this.stage.renderer) return null;
     this.ray.setFromCamera(new THREE.Vector2(spot.x, spot.y), this.stage.camera);
     const objects = spot.panel.runs.flatMap((run) => run.items.map((item) => item.object)).filter((object) => object.visible);
@@ -44,7 +43,7 @@ class Hover {
     return { run, index, part: run.run.shapes[index].part, point: plus(hit.point.toArray(), this.stage.origin) };
   }
 
-  tell(event) {
+  showTip(event) {
     const found = this.find(event);
     const part = found && found.run.parts[found.part];
     if (!part) {

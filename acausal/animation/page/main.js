@@ -1,10 +1,10 @@
-// The start, and what the page offers to others as window.acausal.
+// Start of the page and its interface window.acausal.
 
 const errors = [];
 addEventListener("error", (event) => errors.push(String(event.message)));
 addEventListener("unhandledrejection", (event) => errors.push(String(event.reason)));
 
-/** Low and high corner of all runs, the length that suits them and what is up. */
+/** Bounding box, size and upward direction of all runs. */
 function sceneOf(runs) {
   const corners = (name, pick) => [0, 1, 2].map((j) => runs.reduce((best, run) => pick(best, run.extent[name][j]), runs[0].extent[name][j]));
   return { low: corners("low", Math.min), high: corners("high", Math.max), size: runs[0].size, up: runs[0].up };
@@ -24,15 +24,15 @@ async function start() {
   const viewer = new Viewer(content, stage, runs);
   viewer.choose("");
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) viewer.clock.play();
-  heedAddress(viewer, content.start || "");
-  heedAddress(viewer, location.hash);
-  addEventListener("hashchange", () => heedAddress(viewer, location.hash));
+  applyAddress(viewer, content.start || "");
+  applyAddress(viewer, location.hash);
+  addEventListener("hashchange", () => applyAddress(viewer, location.hash));
   Object.assign(window.acausal, {
     document: content,
     seek(t) {
       viewer.clock.pause();
       viewer.clock.seek(t);
-      viewer.settle();
+      viewer.update();
     },
     time: () => viewer.clock.t,
     play: () => viewer.clock.play(),

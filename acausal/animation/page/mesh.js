@@ -1,4 +1,4 @@
-// The skin of an elastic body: vertices in its frame, moved by modes.
+// Surface of an elastic body: vertices in its frame, displaced by modes.
 
 class Skin {
   static async of(context, shape) {
@@ -14,10 +14,10 @@ class Skin {
     geometry.setAttribute("position", new THREE.BufferAttribute(skin.rest.slice(), 3));
     geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(skin.rest.length).fill(1), 3));
     geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(await unpack(shape.triangles)), 1));
-    const material = context.look(shape, { vertexColors: true, flatShading: true, side: THREE.DoubleSide });
+    const material = context.material(shape, { vertexColors: true, flatShading: true, side: THREE.DoubleSide });
     skin.object = new THREE.Mesh(geometry, material);
     skin.object.frustumCulled = false;
-    skin.plain = new THREE.Color(context.colour(shape)).toArray();
+    skin.plain = linear(context.colour(shape)).toArray();
     skin.pose.group.add(skin.object);
     return skin;
   }
@@ -52,7 +52,7 @@ class Skin {
     color.needsUpdate = true;
   }
 
-  /** The largest displacement over some of the frames. */
+  /** Largest displacement over about a hundred frames. */
   largest() {
     const { columns } = this;
     const step = Math.max(1, Math.floor(columns.frames / 100));
@@ -68,7 +68,7 @@ class Skin {
   positions() {
     const { array } = this.object.geometry.attributes.position;
     const few = Math.min(8, this.count);
-    return Array.from({ length: few }, (_, i) => this.stage.drawn(this.object, array.subarray(3 * i, 3 * i + 3)));
+    return Array.from({ length: few }, (_, i) => this.stage.toWorld(this.object, array.subarray(3 * i, 3 * i + 3)));
   }
 
   anchor(touched) {
@@ -76,7 +76,7 @@ class Skin {
       return () => this.pose.point([0, 0, 0]);
     }
     const { array } = this.object.geometry.attributes.position;
-    const local = this.stage.held(this.pose.group, touched);
+    const local = this.stage.toLocal(this.pose.group, touched);
     let [nearest, least] = [0, Infinity];
     for (let i = 0; i < this.count; i++) {
       const distance = length(minus(array.subarray(3 * i, 3 * i + 3), local));

@@ -1,4 +1,4 @@
-// The letters at the axes of the world, in every panel.
+// Letters at the axes of the world, in every panel.
 
 class AxisNames {
   constructor(stage, element) {
@@ -15,7 +15,7 @@ class AxisNames {
     const place = new THREE.Vector3();
     [...element.children].forEach((letter, k) => {
       const panel = panels[Math.floor(k / 3)];
-      // A little beyond the tip of the arrow.
+      // Just beyond the tip of the arrow.
       place.set(0, 0, 0).setComponent(k % 3, 0.096 * stage.extent);
       place.add(stage.axes.position).project(stage.camera);
       const [x, y] = [(place.x + 1) / 2, (1 - place.y) / 2];

@@ -1,4 +1,4 @@
-// Plots of the outputs under the picture: a panel for each unit and size, a cursor that follows, clicks and drags that seek.
+// Plots of the outputs: panels by unit and range, with a time cursor; clicks and drags set the time.
 
 const LINES = ["#3b82f6", "#e8853b", "#22a06b", "#c060d0", "#e2596b", "#18a5bd", "#a68b21", "#8d7bf0"];
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
@@ -14,7 +14,7 @@ class Plots {
     new ResizeObserver(() => this.draw()).observe(element);
   }
 
-  /** Outputs of one unit stand together, unless one moves less than a twentieth of their axis: it would seem straight. */
+  /** Group outputs of one unit, unless one varies by less than a twentieth of the common range and would look constant. */
   groups() {
     const outputs = new Map();
     for (const run of this.runs) {
@@ -26,13 +26,13 @@ class Plots {
     }
     const groups = [];
     for (const { name, of, list } of outputs.values()) {
-      const [low, high] = this.reach(list);
-      const least = still(low, high) ? Infinity : high - low;
-      const joined = (one) => ({ low: Math.min(low, one.low), high: Math.max(high, one.high), least: Math.min(least, one.least) });
+      const [low, high] = this.extrema(list);
+      const least = isConstant(low, high) ? Infinity : high - low;
+      const merged = (one) => ({ low: Math.min(low, one.low), high: Math.max(high, one.high), least: Math.min(least, one.least) });
       const fits = ({ low, high, least }) => high - low < 20 * least;
-      let group = groups.find((one) => one.of === of && fits(joined(one)));
+      let group = groups.find((one) => one.of === of && fits(merged(one)));
       if (!group) groups.push((group = { of, low, high, least, outputs: new Map() }));
-      Object.assign(group, joined(group)).outputs.set(name, list);
+      Object.assign(group, merged(group)).outputs.set(name, list);
     }
     return groups;
   }
@@ -109,14 +109,14 @@ class Plots {
     const values = ticks(low, high, height / 24);
     for (const v of values) {
       stroke(ink, [[EDGE.left, Math.round(down(v)) + 0.5], [width - EDGE.right, Math.round(down(v)) + 0.5]]);
-      ink.fillText(marked(v, values), EDGE.left - 5, down(v));
+      ink.fillText(tickLabel(v, values), EDGE.left - 5, down(v));
     }
     ink.textAlign = "center";
     ink.textBaseline = "top";
     const moments = ticks(this.clock.first, this.clock.last, width / 70);
     for (const t of moments) {
       stroke(ink, [[Math.round(across(t)) + 0.5, EDGE.top], [Math.round(across(t)) + 0.5, floor]]);
-      ink.fillText(marked(t, moments), clamp(across(t), 12, width - 22), floor + 5);
+      ink.fillText(tickLabel(t, moments), clamp(across(t), 12, width - 22), floor + 5);
     }
     ink.textAlign = "left";
     ink.fillText("s", width - 9, floor + 5);
@@ -124,7 +124,7 @@ class Plots {
     this.lines(ink, panel, across, down);
   }
 
-  /** The unit, along the axis. */
+  /** Draw the unit along the axis. */
   unit(ink, of, floor) {
     ink.save();
     ink.translate(10, (EDGE.top + floor) / 2);
@@ -149,8 +149,8 @@ class Plots {
     ink.setLineDash([]);
   }
 
-  /** Least and greatest value of the shown curves. */
-  reach(curves) {
+  /** Smallest and largest value of the visible curves. */
+  extrema(curves) {
     let [low, high] = [Infinity, -Infinity];
     for (const { run, column, shown } of curves) {
       if (!shown) continue;
@@ -162,31 +162,31 @@ class Plots {
     return [low, high];
   }
 
-  /** What the axis spans: the curves and a margin. */
+  /** Range of the axis: that of the curves and a margin. */
   range(panel) {
-    const [low, high] = this.reach(panel.curves);
+    const [low, high] = this.extrema(panel.curves);
     if (!(low <= high)) return [0, 1];
-    const span = still(low, high) ? Math.abs(high) || 1 : high - low;
+    const span = isConstant(low, high) ? Math.abs(high) || 1 : high - low;
     return [low - 0.06 * span, high + 0.06 * span];
   }
 
-  /** Cursors and values at the present time. */
+  /** Update the cursors and values to the current time. */
   update() {
     const { first, last, t } = this.clock;
     const part = (t - first) / (last - first || 1);
     for (const { curves, cursor, area } of this.panels) {
       cursor.style.transform = `translateX(${EDGE.left + part * (area.clientWidth - EDGE.left - EDGE.right)}px)`;
-      for (const { run, column, value } of curves) value.textContent = written(run.columns.at(column));
+      for (const { run, column, value } of curves) value.textContent = formatNumber(run.columns.at(column));
     }
   }
 }
 
-/** Numbers of 24 bits have steps that would be seen in less than this. */
-function still(low, high) {
+/** Whether the variation is at the level of the round-off of float32, whose steps would be visible. */
+function isConstant(low, high) {
   return high - low <= 1e-5 * Math.max(Math.abs(low), Math.abs(high));
 }
 
-/** A line through points; where there is no value there is a gap. */
+/** Draw a line through points, with a gap where values are not finite. */
 function stroke(ink, points) {
   ink.beginPath();
   points.forEach(([x, y], i) => {
@@ -197,7 +197,7 @@ function stroke(ink, points) {
   ink.stroke();
 }
 
-/** Round numbers in a range, about as many as told. */
+/** Round numbers in a range, about `count` of them. */
 function ticks(low, high, count) {
   if (!(high > low)) return [low];
   const rough = (high - low) / Math.max(count, 2);
@@ -207,9 +207,9 @@ function ticks(low, high, count) {
   return list.map((k) => Number((k * step).toPrecision(12)));
 }
 
-/** One of the round numbers of an axis, with the digits that tell it from its neighbours. */
-function marked(value, all) {
+/** Label of a tick, with enough digits to distinguish it from its neighbours. */
+function tickLabel(value, all) {
   const most = Math.max(...all.map(Math.abs));
   const step = all.length > 1 ? all[1] - all[0] : most || 1;
-  return written(value, clamp(Math.round(Math.log10(Math.abs(value) / step)) + 2, 1, 12));
+  return formatNumber(value, clamp(Math.round(Math.log10(Math.abs(value) / step)) + 2, 1, 12));
 }

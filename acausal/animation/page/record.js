@@ -1,4 +1,4 @@
-// The picture as a film: one pass from the first to the last frame, at the present speed, as a WebM file.
+// Recorder of a film: one pass through the run at the current speed, as a WebM file.
 
 class Recorder {
   constructor(clock, stage, name, changed) {
@@ -34,7 +34,7 @@ class Recorder {
     this.clock.loop = this.looped;
     this.clock.ended = null;
     this.clock.pause();
-    // The last picture is still on its way to the film.
+    // The recorder receives the last drawing with a delay.
     const { media } = this;
     setTimeout(() => media.state === "recording" && media.stop(), 150);
   }

@@ -1,23 +1,23 @@
-// One run: its columns, its bodies, and one drawn item for each shape.
+// One run: its columns, its poses, and one item for each shape.
 
 class Run {
   static async of(stage, run, number) {
-    const made = new Run();
-    Object.assign(made, { stage, run, number, name: run.name, stopped: run.stopped, parts: run.parts });
-    made.columns = await Columns.of(run);
-    made.group = new THREE.Group();
-    made.poses = run.poses.map((pose) => new Pose(stage, made.columns, pose));
-    for (const pose of made.poses) made.group.add(pose.group);
-    made.materials = [];
-    made.bodies = new Map();
-    made.items = [];
-    for (const shape of run.shapes) made.items.push(await made.item(shape));
-    made.items.forEach((item, index) => {
-      item?.object.traverse((object) => (object.userData = { run: made, index }));
+    const created = new Run();
+    Object.assign(created, { stage, run, number, name: run.name, stopped: run.stopped, parts: run.parts });
+    created.columns = await Columns.of(run);
+    created.group = new THREE.Group();
+    created.poses = run.poses.map((pose) => new Pose(stage, created.columns, pose));
+    for (const pose of created.poses) created.group.add(pose.group);
+    created.materials = [];
+    created.bodies = new Map();
+    created.items = [];
+    for (const shape of run.shapes) created.items.push(await created.item(shape));
+    created.items.forEach((item, index) => {
+      item?.object.traverse((object) => (object.userData = { run: created, index }));
     });
-    made.grounded = run.shapes.some((shape) => shape.kind === "ground");
-    stage.scene.add(made.group);
-    return made;
+    created.grounded = run.shapes.some((shape) => shape.kind === "ground");
+    stage.scene.add(created.group);
+    return created;
   }
 
   item(shape) {
@@ -31,21 +31,21 @@ class Run {
     return colourOf(shape, this.bodies);
   }
 
-  /** A material for a shape; tubes and skins carry their colours in their vertices. */
-  look(shape, more = {}) {
+  /** Material of a shape; tubes and surfaces have vertex colours. */
+  material(shape, more = {}) {
     const plain = more.vertexColors ? "#ffffff" : this.colour(shape);
-    const material = new THREE.MeshPhongMaterial({ color: plain, specular: "#333333", shininess: 40, ...more });
+    const material = new THREE.MeshPhongMaterial({ color: linear(plain), specular: linear("#333333"), shininess: 40, ...more });
     this.materials.push({ material, plain, painted: Boolean(more.vertexColors) });
     return material;
   }
 
-  /** All runs but the first are ghosts: seen through, in one colour each. */
-  haunt(ghosts) {
+  /** Draw all runs except the first as ghosts: transparent, each in one colour. */
+  showGhosts(ghosts) {
     const ghost = ghosts && this.number > 0;
     for (const { material, plain, painted } of this.materials) {
       const coloured = painted && this.stage.colours.active;
       material.vertexColors = painted && (!ghost || coloured);
-      material.color.set(ghost && !coloured ? GHOST[this.number % GHOST.length] : plain);
+      material.color.copy(linear(ghost && !coloured ? GHOST[this.number % GHOST.length] : plain));
       material.transparent = ghost;
       material.opacity = ghost ? 0.42 : 1;
       material.depthWrite = !ghost;
@@ -59,7 +59,7 @@ class Run {
     for (const item of this.items) item.update();
   }
 
-  /** Where an item's anchor is at the present time of the columns. */
+  /** A function that returns the position of a part's anchor at the current time of the columns, or null. */
   anchorOf(part, touched = null, index = -1) {
     const item = index >= 0 ? this.items[index] : this.items.find((one, k) => one.anchor && this.run.shapes[k].part === part);
     return item?.anchor ? item.anchor(touched) : null;

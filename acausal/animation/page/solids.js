@@ -1,4 +1,4 @@
-// Rigid things: boxes, cylinders, spheres and pins, drawn once and carried by the pose of their body.
+// Rigid shapes: boxes, cylinders, spheres and axles, fixed to the pose of a body.
 
 const UNIT = {
   box: () => new THREE.BoxGeometry(1, 1, 1),
@@ -6,19 +6,19 @@ const UNIT = {
   sphere: () => new THREE.SphereGeometry(0.5, 40, 24),
   cone: () => new THREE.CylinderGeometry(0, 0.5, 1, 24),
 };
-const made = {};
+const geometries = {};
 
-/** The geometry of unit size, one for all; cylinders and cones stand along y. */
+/** Shared geometry of unit size; the axis of cylinders and cones is y. */
 function unitGeometry(kind) {
-  return (made[kind] ??= UNIT[kind]());
+  return (geometries[kind] ??= UNIT[kind]());
 }
 
-/** The matrix that takes the unit cylinder to one between two points. */
-function standing(from, to, diameter) {
+/** Matrix that maps the unit cylinder to a cylinder between two points. */
+function cylinderMatrix(from, to, diameter) {
   const axis = unit(minus(to, from), [0, 1, 0]);
-  const side = across(axis);
+  const side = perpendicular(axis);
   const third = cross(side, axis);
-  return frameMatrix(mix(from, to, 0.5), [side, axis, third], [diameter, length(minus(to, from)), diameter]);
+  return frameMatrix(lerp(from, to, 0.5), [side, axis, third], [diameter, length(minus(to, from)), diameter]);
 }
 
 function frameMatrix(center, axes, sizes) {
@@ -33,7 +33,7 @@ function frameMatrix(center, axes, sizes) {
   );
 }
 
-/** One body's frame, as a group that carries what is fixed to it. */
+/** Frame of a body, as a group of the objects that are fixed to it. */
 class Pose {
   constructor(stage, columns, pose) {
     this.columns = columns;
@@ -50,12 +50,12 @@ class Pose {
     this.group.quaternion.set(q[1], q[2], q[3], q[0]);
   }
 
-  /** Where a point of the body is in the world, from the columns. */
+  /** Position in the world of a point that is fixed to the body, in double precision. */
   point(local) {
-    return plus(this.columns.vector(this.pose.r), turned(this.columns.quaternion(this.pose.q), local));
+    return plus(this.columns.vector(this.pose.r), rotate(this.columns.quaternion(this.pose.q), local));
   }
 
-  /** The axes of the frame, made when they are asked for. */
+  /** Show or hide the axes of the frame, which are created on first use. */
   showAxes(wanted) {
     if (wanted && !this.axes) {
       this.axes = tripod(0.07 * this.stage.extent);
@@ -69,7 +69,7 @@ class Solid {
   constructor(context, shape) {
     this.pose = context.poses[shape.pose];
     this.stage = context.stage;
-    this.object = new THREE.Mesh(unitGeometry(shape.kind === "axle" ? "cylinder" : shape.kind), context.look(shape));
+    this.object = new THREE.Mesh(unitGeometry(shape.kind === "axle" ? "cylinder" : shape.kind), context.material(shape));
     const { matrix, marks, middle } = Solid[shape.kind](shape, context.stage);
     this.object.matrixAutoUpdate = false;
     this.object.matrix.copy(matrix);
@@ -84,8 +84,8 @@ class Solid {
   }
 
   static cylinder(shape) {
-    const middle = mix(shape.from, shape.to, 0.5);
-    const matrix = standing(shape.from, shape.to, shape.diameter);
+    const middle = lerp(shape.from, shape.to, 0.5);
+    const matrix = cylinderMatrix(shape.from, shape.to, shape.diameter);
     return { matrix, middle, marks: [[0, 0, 0], [0, -0.5, 0], [0, 0.5, 0]] };
   }
 
@@ -105,12 +105,12 @@ class Solid {
   update() {}
 
   positions() {
-    return this.marks.map((mark) => this.stage.drawn(this.object, mark));
+    return this.marks.map((mark) => this.stage.toWorld(this.object, mark));
   }
 
-  /** What follows the shape, given where it was touched (in the world) or not at all. */
+  /** A function that returns the position of a point of the shape: the given point of the world, or its center. */
   anchor(touched) {
-    const local = touched ? this.stage.held(this.pose.group, touched) : this.middle;
+    const local = touched ? this.stage.toLocal(this.pose.group, touched) : this.middle;
     return () => this.pose.point(local);
   }
 }

@@ -1,8 +1,8 @@
-// What is stretched between two moving points (coils, rods, rails), and arrows.
+// Coils, rods and rails between two moving points, and arrows.
 
 const TURNS = 9;
 const PER_TURN = 16;
-const LEAD = 0.12; // of the length at each end of a coil, straight
+const LEAD = 0.12; // straight fraction of the length at each end of a coil
 
 class Span {
   constructor(context, shape) {
@@ -10,10 +10,10 @@ class Span {
     this.stage = context.stage;
     this.shape = shape;
     if (shape.style === "coil") {
-      this.tube = new Tube(TURNS * PER_TURN + 1 + 8, 8, context.look(shape));
+      this.tube = new Tube(TURNS * PER_TURN + 1 + 8, 8, context.material(shape));
       this.object = this.tube.object;
     } else {
-      this.object = new THREE.Mesh(unitGeometry(shape.style === "rail" ? "box" : "cylinder"), context.look(shape));
+      this.object = new THREE.Mesh(unitGeometry(shape.style === "rail" ? "box" : "cylinder"), context.material(shape));
       this.object.matrixAutoUpdate = false;
     }
     context.group.add(this.object);
@@ -25,33 +25,33 @@ class Span {
 
   update() {
     const [a, b] = this.ends().map((p) => minus(p, this.stage.origin));
-    const diameter = Math.max(this.shape.diameter, 2 * this.stage.thinnest);
+    const diameter = Math.max(this.shape.diameter, 2 * this.stage.minRadius);
     if (this.tube) this.coil(a, b, diameter);
-    else this.object.matrix.copy(standing(a, b, diameter));
+    else this.object.matrix.copy(cylinderMatrix(a, b, diameter));
     this.object.visible = length(minus(b, a)) > 0;
   }
 
   coil(a, b, diameter) {
     const axis = unit(minus(b, a));
-    const first = across(axis);
+    const first = perpendicular(axis);
     const second = cross(axis, first);
-    const wire = Math.max(0.07 * diameter, this.stage.thinnest);
+    const wire = Math.max(0.07 * diameter, this.stage.minRadius);
     const winding = Math.max(diameter / 2 - wire, wire);
     const count = this.tube.count;
     const points = Array.from({ length: count }, (_, i) => {
       const s = this.fraction(i, count);
       const wound = clamp((s - LEAD) / (1 - 2 * LEAD), 0, 1);
       const angle = 2 * Math.PI * TURNS * wound;
-      // The wire leaves the axis and comes back to it within half a turn.
+      // The radius grows from the axis, and returns to it, within half a turn.
       const radius = winding * Math.min(1, 2 * TURNS * Math.min(wound, 1 - wound));
       const out = plus(times(radius * Math.cos(angle), first), times(radius * Math.sin(angle), second));
-      return plus(mix(a, b, s), out);
+      return plus(lerp(a, b, s), out);
     });
     const directions = points.map((_, i) => minus(points[Math.min(i + 1, count - 1)], points[Math.max(i - 1, 0)]));
     this.tube.place(points, directions, null, wire, wire);
   }
 
-  /** Four rings for each straight end, the rest for the winding. */
+  /** Position of ring i along the coil: four rings for each straight end, the others for the winding. */
   fraction(i, count) {
     if (i < 4) return (LEAD * i) / 4;
     if (i >= count - 4) return 1 - (LEAD * (count - 1 - i)) / 4;
@@ -59,7 +59,7 @@ class Span {
   }
 
   positions() {
-    if (!this.tube) return [[0, -0.5, 0], [0, 0.5, 0]].map((mark) => this.stage.drawn(this.object, mark));
+    if (!this.tube) return [[0, -0.5, 0], [0, 0.5, 0]].map((mark) => this.stage.toWorld(this.object, mark));
     return [this.tube.middle(0), this.tube.middle(this.tube.count - 1)].map((p) => plus(p, this.stage.origin));
   }
 
@@ -76,7 +76,7 @@ class Arrow {
     this.stage = context.stage;
     this.shape = shape;
     this.quantity = shape.quantity;
-    const material = context.look(shape);
+    const material = context.material(shape);
     this.object = new THREE.Group();
     this.shaft = new THREE.Mesh(unitGeometry("cylinder"), material);
     this.heads = (shape.quantity === "torque" ? [0, 1] : [0]).map(() => new THREE.Mesh(unitGeometry("cone"), material));
@@ -87,7 +87,7 @@ class Arrow {
     context.group.add(this.object);
   }
 
-  /** The longest vector over time. */
+  /** Largest length of the vector over time. */
   longest() {
     const series = this.shape.vector.map((k) => this.columns.series(k));
     let most = 0;
@@ -106,17 +106,17 @@ class Arrow {
     const wide = 0.6 * head;
     const axis = unit(vector);
     const tip = plus(at, vector);
-    this.shaft.matrix.copy(standing(at, minus(tip, times(head, axis)), Math.min(thick, 0.4 * wide)));
+    this.shaft.matrix.copy(cylinderMatrix(at, minus(tip, times(head, axis)), Math.min(thick, 0.4 * wide)));
     this.heads.forEach((mesh, k) => {
       const end = minus(tip, times(0.7 * k * head, axis));
-      mesh.matrix.copy(standing(minus(end, times(head, axis)), end, wide));
+      mesh.matrix.copy(cylinderMatrix(minus(end, times(head, axis)), end, wide));
     });
-    // Less than a thousandth of the scene is no arrow.
+    // Arrows shorter than a thousandth of the scene are hidden.
     this.object.visible = this.stage.show[this.quantity] && size > 1e-3 * this.stage.extent;
   }
 
   positions() {
-    return [this.stage.drawn(this.shaft, [0, -0.5, 0]), this.stage.drawn(this.heads[0], [0, 0.5, 0])];
+    return [this.stage.toWorld(this.shaft, [0, -0.5, 0]), this.stage.toWorld(this.heads[0], [0, 0.5, 0])];
   }
 
   anchor() {
@@ -130,11 +130,11 @@ function tripod(size) {
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const colours = ["#e5484d", "#46a758", "#3b82f6"];
   axes.forEach((axis, k) => {
-    const material = new THREE.MeshBasicMaterial({ color: colours[k] });
+    const material = new THREE.MeshBasicMaterial({ color: linear(colours[k]) });
     const add = (geometry, from, to, diameter) => {
       const mesh = new THREE.Mesh(unitGeometry(geometry), material);
       mesh.matrixAutoUpdate = false;
-      mesh.matrix.copy(standing(times(from * size, axis), times(to * size, axis), diameter * size));
+      mesh.matrix.copy(cylinderMatrix(times(from * size, axis), times(to * size, axis), diameter * size));
       group.add(mesh);
     };
     add("cylinder", 0, 0.8, 0.035);

@@ -1,15 +1,15 @@
-// What things stand on: renderer, lights, ground, axes, and the panels that show one run each or all as ghosts.
+// Renderer, camera, lights, ground, axes, and the panels of the runs.
 
 class Stage {
   constructor(element, view) {
     this.element = element;
-    // Everything is drawn relative to the middle of the scene, in double precision up to there.
-    this.origin = mix(view.low, view.high, 0.5);
+    // Positions are relative to the middle of the scene; the difference is formed in double precision.
+    this.origin = lerp(view.low, view.high, 0.5);
     this.low = minus(view.low, this.origin);
     this.high = minus(view.high, this.origin);
     this.extent = length(minus(view.high, view.low)) || view.size || 1;
     this.up = unit(view.up, [0, 1, 0]);
-    this.thinnest = 0.0025 * this.extent; // the half of some pixels where the whole scene is seen: colours can be told
+    this.minRadius = 0.0025 * this.extent; // a few pixels thick when the whole scene is in view
     this.deformation = 1;
     this.arrowScale = {};
     this.show = { force: false, torque: false, grid: true, axes: true, frames: false };
@@ -21,20 +21,22 @@ class Stage {
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
     this.camera.up.set(...this.up);
     this.scene.add(this.camera);
-    this.light();
-    this.furnish();
+    this.addLights();
+    this.addGround();
     this.renderer = this.open();
   }
 
-  /** The renderer, or null where there is no WebGL. */
+  /** Create the renderer; null without WebGL. */
   open() {
     try {
       const canvas = document.createElement("canvas");
-      // Asked first, since the renderer complains on the console where there is none.
+      // Checked first: without WebGL the renderer reports an error on the console.
       if (!canvas.getContext("webgl2", { antialias: true, alpha: false })) return null;
       const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
       renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
       renderer.autoClear = false;
+      renderer.outputEncoding = THREE.sRGBEncoding;
+      renderer.physicallyCorrectLights = true; // irradiance as given, not multiplied by pi
       this.element.prepend(canvas);
       return renderer;
     } catch {
@@ -42,26 +44,26 @@ class Stage {
     }
   }
 
-  light() {
-    this.scene.add(new THREE.HemisphereLight("#ffffff", "#9aa3b0", 1.5));
-    // Over the left shoulder of whoever looks, so that no side of the scene is ever dark.
+  addLights() {
+    this.scene.add(new THREE.HemisphereLight("#ffffff", linear("#9aa3b0"), 1.5));
+    // Fixed to the camera, from above on the left, so that no visible side is dark.
     const sun = new THREE.DirectionalLight("#ffffff", 2.1);
     sun.position.set(-0.6, 1, 0.9);
     this.camera.add(sun, sun.target);
     sun.target.position.set(0, 0, -0.2);
   }
 
-  /** Ground grid and axes of the world. */
-  furnish() {
+  /** Add the grid of the ground and the axes of the world. */
+  addGround() {
     this.ground = new THREE.Group();
     this.scene.add(this.ground);
     const { along, front } = this.directions();
     const step = roundDown(this.extent / 8);
-    const floor = this.floor(step);
-    // The grid covers the scene's shadow and a margin, in whole steps from the world's origin.
+    const floor = this.groundLevel(step);
+    // The grid covers the vertical projection of the scene and a margin, in whole spacings from the origin of the world.
     const world = times(-1, this.origin);
     const ranges = [along, front].map((axis) => {
-      const half = Math.max(this.reach(axis), 0.3 * this.extent) + 2 * step;
+      const half = Math.max(this.halfExtent(axis), 0.3 * this.extent) + 2 * step;
       const offset = dot(world, axis);
       return [Math.floor((-half - offset) / step), Math.ceil((half - offset) / step)];
     });
@@ -89,51 +91,51 @@ class Stage {
     this.scene.add(this.axes);
   }
 
-  /** The box that the picture shows: the scene, and the axes of the world where they stand in it. */
-  framed() {
+  /** Box to fit into the view: the scene, and the axes of the world if these are visible and near it. */
+  framedBox() {
     const world = times(-1, this.origin);
     const near = world.every((v, k) => v > this.low[k] - 0.05 * this.extent && v < this.high[k] + 0.05 * this.extent);
     if (!near || !this.show.axes) return this;
     return { low: this.low, high: this.high.map((v, k) => Math.max(v, world[k] + 0.08 * this.extent)) };
   }
 
-  /** How far the scene reaches from its middle along an axis. */
-  reach(axis) {
+  /** Half of the extent of the scene along an axis. */
+  halfExtent(axis) {
     return [0, 1, 2].reduce((sum, k) => sum + Math.abs(axis[k]) * this.high[k], 0);
   }
 
-  /** Height of the grid above the world's origin: there, or below a scene that hangs lower. */
-  floor(step) {
-    const lowest = dot(this.origin, this.up) - this.reach(this.up);
+  /** Height of the grid above the origin of the world: 0, or negative below a scene that extends further down. */
+  groundLevel(step) {
+    const lowest = dot(this.origin, this.up) - this.halfExtent(this.up);
     return lowest < -1e-3 * this.extent ? step * Math.floor(lowest / step + 1e-9) : 0;
   }
 
-  /** To the right and towards whoever looks from the front: x and z where y is up, x and -y where z is. */
+  /** Directions to the right and towards the viewer in the front view: x and z if y is up, x and -y if z is up. */
   directions() {
-    const along = across(this.up, [1, 0, 0]);
+    const along = perpendicular(this.up, [1, 0, 0]);
     return { along, front: cross(along, this.up) };
   }
 
-  /** A point of an object in the world, as it is drawn. */
-  drawn(object, mark) {
+  /** World coordinates of a point of a drawn object. */
+  toWorld(object, mark) {
     const p = new THREE.Vector3(mark[0], mark[1], mark[2]).applyMatrix4(object.matrixWorld);
     return plus([p.x, p.y, p.z], this.origin);
   }
 
-  /** A point of the world, resolved in a group. */
-  held(group, point) {
+  /** Coordinates of a point of the world in a group. */
+  toLocal(group, point) {
     const p = new THREE.Vector3(...minus(point, this.origin)).applyMatrix4(group.matrixWorld.clone().invert());
     return [p.x, p.y, p.z];
   }
 
-  /** The panels of the picture: place in it as fractions (from the left, from the top), and the runs to be seen. */
+  /** Panels of the view: rectangles in fractions of the view, from the top left, and their runs. */
   panels() {
     const n = this.runs.length;
     if (this.ghosts || n < 2) return [{ x: 0, y: 0, width: 1, height: 1, runs: this.runs }];
     const { clientWidth, clientHeight } = this.element;
-    // As many side by side as make the panels most like the scene from the front.
+    // Number of columns for which the aspect ratio of a panel is nearest to that of the scene in the front view.
     const { along } = this.directions();
-    const shape = clamp(this.reach(along) / this.reach(this.up) || 1, 0.5, 2);
+    const shape = clamp(this.halfExtent(along) / this.halfExtent(this.up) || 1, 0.5, 2);
     const rowsOf = (columns) => Math.ceil(n / columns);
     const unlike = (columns) => Math.abs(Math.log((clientWidth * rowsOf(columns)) / (columns * clientHeight * shape)));
     const columns = this.runs.map((_, k) => k + 1).reduce((best, next) => (unlike(next) < unlike(best) ? next : best));
@@ -143,9 +145,10 @@ class Stage {
     }));
   }
 
-  /** The panel under a place of the picture, and the place in it as the camera counts, -1 ... 1. */
-  panelAt(x, y) {
-    const [u, v] = [x / this.element.clientWidth, y / this.element.clientHeight];
+  /** The panel under the pointer, and the pointer's normalised device coordinates in it, -1 ... 1. */
+  panelAt(event) {
+    const box = this.element.getBoundingClientRect();
+    const [u, v] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
     const panel = this.panels().find((p) => u >= p.x && u < p.x + p.width && v >= p.y && v < p.y + p.height);
     return panel && { panel, x: (2 * (u - panel.x)) / panel.width - 1, y: 1 - (2 * (v - panel.y)) / panel.height };
   }
@@ -157,14 +160,15 @@ class Stage {
     this.renderer?.setSize(width, height, false);
   }
 
-  dress() {
+  applyTheme() {
     const style = getComputedStyle(document.documentElement);
+    // three.js writes the background without conversion to sRGB.
     this.scene.background = new THREE.Color(style.getPropertyValue("--sky").trim());
-    for (const lines of this.gridLines) lines.material.color.set(style.getPropertyValue("--grid").trim());
+    for (const lines of this.gridLines) lines.material.color.copy(linear(style.getPropertyValue("--grid").trim()));
   }
 
-  /** Planes that hold all there is, the near one as far out as can be: for the precision of the depths. */
-  cut() {
+  /** Set the clipping planes around the scene, the near one as far away as possible, for the resolution of depth. */
+  setClippingPlanes() {
     const { camera } = this;
     const ahead = camera.getWorldDirection(new THREE.Vector3()).toArray();
     const here = camera.position.toArray();
@@ -182,7 +186,7 @@ class Stage {
     this.ground.visible = this.show.grid;
     this.axes.visible = this.show.axes;
     if (!this.renderer) return;
-    this.cut();
+    this.setClippingPlanes();
     const { clientWidth: width, clientHeight: height } = this.element;
     this.renderer.setScissorTest(false);
     this.renderer.setClearColor(this.scene.background);

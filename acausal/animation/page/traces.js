@@ -1,4 +1,4 @@
-// Paths of points: the whole path faint, the part up to now in full colour.
+// Traces of points: the whole path pale, the past part in full colour.
 
 class Traces {
   constructor(stage) {
@@ -19,7 +19,7 @@ class Traces {
     past.setAttribute("position", geometry.attributes.position);
     const colour = GHOST[(this.list.length + 1) % GHOST.length];
     const lines = [[geometry, 0.3], [past, 1]].map(([one, opacity]) => {
-      const material = new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity });
+      const material = new THREE.LineBasicMaterial({ color: linear(colour), transparent: true, opacity });
       const line = new THREE.Line(one, material);
       line.frustumCulled = false;
       run.group.add(line);
@@ -43,7 +43,7 @@ class Traces {
     }
   }
 
-  /** Where the point is at all frames. */
+  /** Compute the positions of the point at all frames. */
   fill({ run, point, lines }) {
     const { columns } = run;
     const position = lines[0].geometry.attributes.position;
@@ -55,7 +55,7 @@ class Traces {
     position.needsUpdate = true;
   }
 
-  /** After the deformation has another scale. */
+  /** Recompute all traces, after a change of the scale of deformations. */
   refill() {
     this.list.forEach((one) => this.fill(one));
   }

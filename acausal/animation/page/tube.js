@@ -1,11 +1,11 @@
-// A tube along a line that moves: elliptic rings at right angles to the line, closed at both ends.
+// Tube along a moving line: elliptic rings normal to the line, closed at both ends.
 
 class Tube {
   /** A tube of `count` rings with `around` corners each. */
   constructor(count, around, material) {
     this.count = count;
     this.around = around;
-    const vertices = (count + 2) * around + 2; // the first and last ring once more, and a centre, for the flat ends
+    const vertices = (count + 2) * around + 2; // the flat ends repeat the first and last ring and add a centre each
     this.geometry = new THREE.BufferGeometry();
     for (const name of ["position", "normal", "color"]) {
       const attribute = new THREE.BufferAttribute(new Float32Array(3 * vertices).fill(1), 3);
@@ -41,16 +41,16 @@ class Tube {
   }
 
   /**
-   * Put the rings around points (relative to the scene's origin) with these directions.
+   * Place the rings at points (relative to the origin of the scene), normal to the directions.
    *
-   * `a` and `b` are the half-axes; b points along `up` at the first ring and is carried on without twist.
+   * `a` and `b` are the half-axes; b points along `up` at the first ring and continues without twist.
    */
   place(points, directions, up, a, b) {
     const { count, around, position, normal } = this;
     let second = null;
     for (let i = 0; i < count; i++) {
       const along = unit(directions[i], second ? cross(second, [0, 0, 1]) : [1, 0, 0]);
-      second = across(along, second ?? up);
+      second = perpendicular(along, second ?? up);
       const first = cross(second, along);
       for (let k = 0; k < around; k++) {
         const [c, s] = this.circle[k];
@@ -81,7 +81,7 @@ class Tube {
     }
   }
 
-  /** Give ring i a colour (linear red, green, blue at place `from` of a table). */
+  /** Give ring i a colour (linear RGB at index `from` of a table). */
   paint(i, table, from) {
     const { count, around, color } = this;
     const set = (vertex) => {
@@ -98,7 +98,7 @@ class Tube {
     this.geometry.attributes.color.needsUpdate = true;
   }
 
-  /** The middle of ring i as it stands in the buffer. */
+  /** Centre of ring i, from the vertex buffer. */
   middle(i) {
     const sum = [0, 0, 0];
     for (let k = 0; k < this.around; k++) {

@@ -6,7 +6,7 @@ const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const length = (a) => Math.hypot(a[0], a[1], a[2]);
-const mix = (a, b, s) => [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])];
+const lerp = (a, b, s) => [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])];
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 function unit(a, otherwise = [1, 0, 0]) {
@@ -14,8 +14,8 @@ function unit(a, otherwise = [1, 0, 0]) {
   return size > 0 ? times(1 / size, a) : otherwise;
 }
 
-/** A unit vector at right angles to a unit vector, as near to `wanted` as can be. */
-function across(axis, wanted) {
+/** Unit vector normal to a unit vector, as near as possible to `wanted`. */
+function perpendicular(axis, wanted) {
   if (wanted) {
     const rest = minus(wanted, times(dot(wanted, axis), axis));
     if (length(rest) > 1e-3 * length(wanted)) return unit(rest);
@@ -25,21 +25,21 @@ function across(axis, wanted) {
   return unit(minus(other, times(dot(other, axis), axis)));
 }
 
-/** A vector that is resolved in a body, turned into the world: v + 2 u x (u x v + w v), u the vector part. */
-function turned(q, v) {
+/** Rotate a vector by a quaternion (w, u): v + 2 u x (u x v + w v). */
+function rotate(q, v) {
   const u = [q[1], q[2], q[3]];
   return plus(v, times(2, cross(u, plus(cross(u, v), times(q[0], v)))));
 }
 
-/** The largest of 1, 2 and 5 times a power of ten that is not above a positive value. */
+/** Largest of 1, 2 and 5 times a power of ten that does not exceed a positive value. */
 function roundDown(value) {
   const power = 10 ** Math.floor(Math.log10(value) + 1e-9);
   const digits = value / power;
   return power * (digits >= 5 - 1e-9 ? 5 : digits >= 2 - 1e-9 ? 2 : 1);
 }
 
-/** A number as people write it, with so many significant digits. */
-function written(value, digits = 4) {
+/** Format a number with the given number of significant digits. */
+function formatNumber(value, digits = 4) {
   if (!Number.isFinite(value)) return "\u2013";
   if (value === 0) return "0";
   const size = Math.abs(value);

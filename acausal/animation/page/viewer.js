@@ -1,29 +1,29 @@
-// The viewer: what the controls, the keys and the address ask for, and one drawing when something has changed.
+// Viewer: state of the page, changed by controls, keys and address, and drawn once after each change.
 
 class Viewer {
   constructor(document_, stage, runs) {
     Object.assign(this, { document: document_, stage, runs });
-    this.clock = new Clock(runs, () => this.change());
-    this.views = new Views(stage, () => this.change());
+    this.clock = new Clock(runs, () => this.requestDraw());
+    this.views = new Views(stage, () => this.requestDraw());
     this.traces = new Traces(stage);
-    this.recorder = new Recorder(this.clock, stage, document_.title || "animation", () => this.change());
+    this.recorder = new Recorder(this.clock, stage, document_.title || "animation", () => this.requestDraw());
     this.plots = new Plots($("plots"), runs, this.clock);
     this.axisNames = new AxisNames(stage, $("axis-names"));
     this.hover = new Hover(stage, $("tip"), (found) => this.pick(found));
     this.values = ColourScale.offered(runs);
     this.chosen = null;
     this.scaleArrows();
-    this.offer();
+    this.fillLists();
     connectControls(this);
     this.dark(matchMedia("(prefers-color-scheme: dark)").matches);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => this.dark(event.matches));
     new ResizeObserver(() => this.resize()).observe(stage.element);
     this.resize();
-    this.view(this.views.natural());
+    this.view(this.views.defaultView());
   }
 
-  /** Something has changed: draw at the next occasion, once. */
-  change() {
+  /** Draw once at the next animation frame. */
+  requestDraw() {
     if (this.waiting || !this.plots) return;
     this.waiting = true;
     requestAnimationFrame((now) => {
@@ -34,29 +34,29 @@ class Viewer {
   }
 
   draw() {
-    this.settle();
+    this.update();
     this.stage.render();
     this.axisNames.update();
     this.plots.update();
     showState(this);
   }
 
-  /** Bring everything to the present time, without drawing. */
-  settle() {
+  /** Update all objects to the current time, without drawing. */
+  update() {
     for (const run of this.runs) run.update(this.clock.t);
     this.traces.update();
-    this.views.carry();
+    this.views.followPart();
     this.stage.scene.updateMatrixWorld();
-    this.label();
+    this.labelRuns();
   }
 
   resize() {
     this.stage.resize();
-    if (this.views.name) this.views.look(this.views.name);
-    this.change();
+    if (this.views.name) this.views.show(this.views.name);
+    this.requestDraw();
   }
 
-  /** Forces and torques: the longest over time is a quarter of the extent. */
+  /** Scale forces and torques so that the longest over time is a quarter of the extent. */
   scaleArrows() {
     for (const quantity of ["force", "torque"]) {
       const arrows = this.runs.flatMap((run) => run.items).filter((item) => item.quantity === quantity);
@@ -64,12 +64,12 @@ class Viewer {
       this.stage.arrowScale[quantity] = longest > 0 ? (0.25 * this.stage.extent) / longest : 0;
       const label = $(`show-${quantity}`).parentElement;
       label.hidden = !arrows.length;
-      if (longest > 0) label.append(` up to ${written(longest, 3)} ${arrows[0].shape.unit}`);
+      if (longest > 0) label.append(` up to ${formatNumber(longest, 3)} ${arrows[0].shape.unit}`);
     }
   }
 
-  /** Offer what the document has: values to colour by, parts, what deforms. */
-  offer() {
+  /** Fill the lists of values and parts, and hide controls that the document has no use for. */
+  fillLists() {
     const options = [["none", "none"], ...this.values.map((v) => [v.name, v.unit ? `${v.name} (${v.unit})` : v.name])];
     $("colour").replaceChildren(...options.map(([value, text]) => make("option", { value, textContent: text })));
     $("colour").parentElement.hidden = !this.values.length;
@@ -91,21 +91,21 @@ class Viewer {
     $("part").replaceChildren(...list.map(([value, textContent]) => make("option", { value, textContent })));
     $("part").parentElement.hidden = !parts.size;
     $("record").hidden = !this.recorder.possible();
-    this.tell();
+    this.showStopped();
   }
 
-  /** Runs that ended early. */
-  tell() {
+  /** Show which runs ended early and why. */
+  showStopped() {
     const said = this.runs.filter((run) => run.stopped).map((run) => {
       const name = this.runs.length > 1 ? `${run.name}: ` : "";
-      return make("p", { textContent: `${name}stopped at ${written(run.columns.last, 6)} s: ${run.stopped}` });
+      return make("p", { textContent: `${name}stopped at ${formatNumber(run.columns.last, 6)} s: ${run.stopped}` });
     });
     $("stopped").replaceChildren(...said);
     $("stopped").hidden = !said.length;
   }
 
-  /** Names of the runs, in their panels or with the colours of their ghosts. */
-  label() {
+  /** Label the runs in their panels, or in the colours of their ghosts. */
+  labelRuns() {
     const { stage } = this;
     const key = `${stage.ghosts}/${stage.element.clientWidth}/${stage.element.clientHeight}`;
     if (this.runs.length < 2 || this.labelled === key) return;
@@ -126,13 +126,13 @@ class Viewer {
   }
 
   view(name) {
-    this.views.look(name);
-    this.change();
+    this.views.show(name);
+    this.requestDraw();
   }
 
   fit() {
     this.views.fit();
-    this.change();
+    this.requestDraw();
   }
 
   toggle(name, wanted) {
@@ -143,23 +143,23 @@ class Viewer {
       show[name] = wanted ?? !show[name];
       if (name === "frames") for (const run of this.runs) for (const pose of run.poses) pose.showAxes(show.frames);
     }
-    this.change();
+    this.requestDraw();
   }
 
   deform(scale) {
     this.stage.deformation = clamp(Number(scale.toPrecision(3)), 1, 1000);
     this.traces.refill();
-    this.change();
+    this.requestDraw();
   }
 
-  /** Colour by a value that the document has; any other word is none. */
+  /** Colour by a value of the document; any other name means none. */
   colour(name) {
     const entry = this.values.find((value) => value.name === name);
     this.stage.colours.choose(entry);
     $("colour").value = entry ? entry.name : "none";
     this.stage.colours.draw($("bar"));
-    this.haunt();
-    this.change();
+    this.showGhosts();
+    this.requestDraw();
   }
 
   nextColour() {
@@ -169,17 +169,17 @@ class Viewer {
 
   ghosts(wanted) {
     this.stage.ghosts = wanted && this.runs.length > 1;
-    this.haunt();
+    this.showGhosts();
     this.resize();
   }
 
-  haunt() {
-    for (const run of this.runs) run.haunt(this.stage.ghosts);
+  showGhosts() {
+    for (const run of this.runs) run.showGhosts(this.stage.ghosts);
   }
 
   loop(wanted) {
     this.clock.loop = wanted;
-    this.change();
+    this.requestDraw();
   }
 
   isDark() {
@@ -188,9 +188,9 @@ class Viewer {
 
   dark(wanted) {
     document.documentElement.dataset.theme = wanted ? "dark" : "light";
-    this.stage.dress();
+    this.stage.applyTheme();
     this.plots.draw();
-    this.change();
+    this.requestDraw();
   }
 
   help() {

@@ -71,9 +71,12 @@ def test_chosen_variables_are_plotted(run: Callable[..., Any], tmp_path: Path) -
         (("mine.py:Falls", "--animate", "no/run.html"), "there is no directory"),
         (("mine.py:Falls", "--animate", "mine.py"), "ends in .html"),
         (("mine.py:Falls", "--animate", "a.png", "--plot", "a.png"), "--plot and --animate both write a.png"),
-        (("mine.py:Nothing", "--animate", "a.html"), "nothing to be seen in Nothing"),
+        (("mine.py:Nothing", "--animate", "a.html"), "Nothing cannot be animated"),
         (("mine.py:Falls", "--animate", "a.html", "--deformation", "0"), "deformation is a number from 1 to 1000"),
-        (("mine.py:Falls", "--animate", "a.html", "--values", "stress"), 'there are no values "stress"'),
+        (
+            ("mine.py:Falls", "--animate", "a.html", "--values", "stress"),
+            'no curve of the animation has values "stress"',
+        ),
     ],
 )
 def test_refused_before_any_work(

@@ -198,7 +198,9 @@ def test_values_along_beams_are_written_if_asked_for(machine: ac.Result) -> None
     both = document({"bar": run_of(result), "machine": run_of(machine)}, ["bending moment"])
     assert both["start"] == "colour=bending+moment"
     assert sum(len(s.get("values", ())) for run in both["runs"] for s in run["shapes"]) == 2
-    with pytest.raises(ac.DeclarationError, match=r'no values "stress".*"axial force", "bending moment", "deflection"'):
+    with pytest.raises(
+        ac.DeclarationError, match=r'has values "stress".*"axial force", "bending moment", "deflection"'
+    ):
         made(result, ("stress",))
 
 
@@ -236,9 +238,12 @@ STILL = geometry.Pose((0, 0, 0), np.eye(3))
         (geometry.Curve(points=((0, 0), (1, 0))), r"`points` of the Curve .* needs \(n, 3\)"),
         (geometry.Span("a", (0, 0, 0)), r"`start` of the Span of the model"),
         (lambda m: geometry.Sphere(STILL, diameter=m.x), r"`diameter` of the Sphere .* varies with time"),
-        (geometry.Sphere(geometry.Pose((0, 0, 0), 2 * np.eye(3))), "T of a Pose of the model .* is no rotation matrix"),
+        (
+            geometry.Sphere(geometry.Pose((0, 0, 0), 2 * np.eye(3))),
+            "T of a Pose of the model .* is not a rotation matrix",
+        ),
         (3, r"shapes\(\) of model \(Own\) yields 3"),
-        (geometry.Curve(((0, 0, 0), (1, 0, 0)), rest=STILL), "needs `rest_points`"),
+        (geometry.Curve(((0, 0, 0), (1, 0, 0)), rest=STILL), "needs one entry of `rest_points`"),
     ],
 )
 def test_shapes_that_are_none_are_refused(shape: Any, said: str) -> None:
@@ -302,7 +307,7 @@ def test_values_that_are_no_numbers_are_bridged_and_told() -> None:
         geometry.Span((0, 0, 0), (1, 0, 0)),
         lambda m: geometry.Sphere(geometry.Pose((sqrt(-1 - m.x * 0), 0, 0), np.eye(3))),
     )
-    with pytest.warns(ac.AcausalWarning, match=r"the Sphere of the model \(Own\) is left out"):
+    with pytest.warns(ac.AcausalWarning, match=r"the Sphere of the model \(Own\) is not drawn"):
         assert [s["kind"] for s in made(result)["shapes"]] == ["span"]
 
 
@@ -318,7 +323,7 @@ class Silent(Model):
 
 def test_nothing_to_be_seen() -> None:
     result = ac.simulate(Silent(x=fixed(1)), stop_time=1, intervals=10)
-    with pytest.raises(ac.DeclarationError, match=r"nothing to be seen in Silent.*shapes\(\)"):
+    with pytest.raises(ac.DeclarationError, match=r"Silent cannot be animated.*shapes\(\)"):
         made(result)
     assert result._repr_html_() is None
 

@@ -56,9 +56,9 @@ def orbit() -> ac.Result:
 def drawn(result: ac.Result, kind: type, k: int, view: Camera = FRONT) -> list[Polygon]:
     """Polygons of the first shape of a kind at a frame."""
     (scene,) = scenes({"orbit": run_of(result)}).values()
-    (shape, *_) = (one.shape for one in scene.seen if isinstance(one.shape, kind))
-    seen = [one for one in scene.seen if one.shape is shape]
-    scene.seen[:] = seen
+    (shape, *_) = (one.shape for one in scene.shapes if isinstance(one.shape, kind))
+    seen = [one for one in scene.shapes if one.shape is shape]
+    scene.shapes[:] = seen
     return Drawing(scene, view).frame(k)
 
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import subprocess
 import time
 from html import escape
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 
 from acausal.animation.page import html
 from tests.acausal.animation.browser import Browser, installed
@@ -60,7 +62,7 @@ def test_play_pause_speed_and_loop(show: Show, run: dict) -> None:
     stopped = browser.run(NOW)
     browser.run(PAINTED)
     assert browser.run(NOW) == stopped
-    assert browser.run("acausal.viewer.clock.natural") == pytest.approx(0.2)  # 2 s of the machine in 10 s
+    assert browser.run("acausal.viewer.clock.defaultSpeed") == pytest.approx(0.2)  # 2 s of the machine in 10 s
     speeds = []
     for key in "++--":
         browser.key(key, key)
@@ -85,7 +87,7 @@ def test_natural_speed(show: Show, run: dict) -> None:
     browser = show(document(run))
     speeds = browser.run(
         "[1e-3, 0.03, 0.3, 1.6, 3, 5, 10, 20, 300, 5e7].map((last) => [last, Object.assign(Object.create("
-        "Object.getPrototypeOf(acausal.viewer.clock)), {first: 0, last}).suitable()])"
+        "Object.getPrototypeOf(acausal.viewer.clock)), {first: 0, last}).chooseSpeed()])"
     )
     for duration, speed in speeds:
         assert 4 <= duration / speed <= 12.6
@@ -132,7 +134,7 @@ def test_standard_views(show: Show, run: dict, up: tuple, view: str, right: tupl
     """What is to the right and above in the picture."""
     browser = show(document({**run, "up": up}), f"#t=0&view={view}")
     axes = browser.run(
-        "acausal.viewer.settle(), [0, 1].map((k) => acausal.viewer.stage.camera.matrixWorld.toArray().slice(4 * k, 4 * k + 3))"
+        "acausal.viewer.update(), [0, 1].map((k) => acausal.viewer.stage.camera.matrixWorld.toArray().slice(4 * k, 4 * k + 3))"
     )
     assert axes[0] == pytest.approx(right, abs=1e-3)
     assert axes[1] == pytest.approx(above, abs=1e-3)
@@ -145,7 +147,7 @@ def test_the_whole_scene_is_in_the_picture(show: Show, scale: float) -> None:
     for view in ("front", "top", "right", "iso"):
         corners = browser.run(f"""(() => {{
             const {{stage, views}} = acausal.viewer;
-            views.look({view!r}); stage.camera.updateMatrixWorld(); stage.cut();
+            views.show({view!r}); stage.camera.updateMatrixWorld(); stage.setClippingPlanes();
             return [...Array(8).keys()].map((k) => {{
                 const p = [0, 1, 2].map((j) => ((k >> j) & 1 ? stage.high : stage.low)[j]);
                 return stage.camera.position.clone().set(...p).project(stage.camera).toArray();
@@ -161,7 +163,7 @@ def test_a_part_is_followed(show: Show, run: dict) -> None:
     for t in (0, 0.7, 1.6):
         browser.run(f"acausal.seek({t})")
         camera, ball = browser.run(
-            "[acausal.viewer.stage.drawn(acausal.viewer.stage.camera, [0, 0, 0]), acausal.positions(3)[0]]"
+            "[acausal.viewer.stage.toWorld(acausal.viewer.stage.camera, [0, 0, 0]), acausal.positions(3)[0]]"
         )
         relative.append(np.subtract(ball, camera))
     assert relative[1] == pytest.approx(relative[0], abs=1e-5)
@@ -184,7 +186,7 @@ def test_a_trace_is_the_path_of_the_point(show: Show, run: dict) -> None:
 def place_of(browser: Browser, shape: int) -> list[float]:
     """Where the middle of a shape is in the window (pixels)."""
     return browser.run(f"""(() => {{
-        acausal.viewer.settle();
+        acausal.viewer.update();
         const {{stage}} = acausal.viewer, box = stage.element.getBoundingClientRect();
         const seen = acausal.positions({shape});
         const p = [0, 1, 2].map((j) => seen.reduce((sum, q) => sum + q[j], 0) / seen.length - stage.origin[j]);
@@ -265,6 +267,16 @@ def test_an_output_may_have_no_value_for_a_while(show: Show) -> None:
     assert min(blue) < 0.02
     assert max(blue) > 0.98
     assert not [x for x in blue if 0.26 < x < 0.74]
+
+
+def test_colours_of_the_picture(show: Show, run: dict) -> None:
+    browser = show(document(run), "#t=0.3&view=front&grid=0")
+    browser.run(PAINTED)
+    picture = (255 * imread(BytesIO(browser.picture()))[..., :3]).round().astype(int)
+    colours = {tuple(colour) for colour in picture.reshape(-1, 3)}
+    assert {(0xEE, 0xF2, 0xF7), (0xE5, 0x48, 0x4D)} <= colours  # the sky and the x axis, which no light changes
+    x, y = place_of(browser, 3)
+    assert picture[int(y), int(x)] == pytest.approx((33, 151, 112), abs=2)  # the ball, lit by the sky and the sun
 
 
 def test_colours_of_values(show: Show, run: dict) -> None:
@@ -368,8 +380,10 @@ def test_drag_turns_and_wheel_comes_nearer(show: Show, run: dict) -> None:
     browser.mouse("mouseReleased", 300, 220, button="left", clickCount=1)
     assert np.abs(np.subtract(browser.run(place), before)).max() > 0.1 * far
     assert browser.run(distance) == pytest.approx(far)
-    browser.mouse("mouseWheel", 360, 200, deltaX=0, deltaY=-300)
+    ball = place_of(browser, 3)
+    browser.mouse("mouseWheel", *ball, deltaX=0, deltaY=-300)
     until(browser, f"{distance} < {0.9 * far}")
+    assert place_of(browser, 3) == pytest.approx(ball, abs=0.5)  # what is under the pointer stays there
     browser.key("0", "0")
     assert browser.run(distance) > 0.9 * far
     assert not browser.run("acausal.viewer.chosen")  # a drag is no click

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from acausal.animation.rotations import quaternions, turns
+from acausal.animation.rotations import quaternions, rotation_angles
 
 
 def matrices(rotations: Rotation) -> np.ndarray:
@@ -38,10 +38,10 @@ def test_signs_are_continuous_over_many_turns() -> None:
     # Half the angle, which the shortest way alone would not tell.
     assert q[:, 0] == pytest.approx(np.cos(angle / 2), abs=1e-14)
     assert q[:, 1:] == pytest.approx(np.outer(np.sin(angle / 2), [0, 0.6, 0.8]), abs=1e-14)
-    assert turns(q) == pytest.approx(np.full(1000, 0.05), rel=1e-6)
+    assert rotation_angles(q) == pytest.approx(np.full(1000, 0.05), rel=1e-6)
 
 
 @pytest.mark.parametrize("wrong", [np.diag([1.0, 1.0, -1.0]), 1.1 * np.eye(3), np.zeros((3, 3))])
 def test_what_is_no_rotation_is_refused(wrong: np.ndarray) -> None:
-    with pytest.raises(ValueError, match="no rotation"):
+    with pytest.raises(ValueError, match="not a rotation"):
         quaternions(np.array([np.eye(3), wrong]))

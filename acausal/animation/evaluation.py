@@ -1,4 +1,4 @@
-"""From expressions in shapes to their values: all that a scene asks for is evaluated at once."""
+"""Evaluate the expressions in shapes, all in one call."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen
+from acausal.animation.collect import PartShape
 from acausal.errors import DeclarationError, caution
 from acausal.language.expression import as_expr
 from acausal.symbols import dense, stacked, vec
 
 Evaluate = Callable[[Any], np.ndarray]
-# Shapes of what varies with time, and of what does not; None is any number, and may be one thing or another.
+# Array shapes of the fields that vary with time and of those that do not; None stands for any length.
 MOVING: dict[type, dict[str, tuple[int | None, ...]]] = {
     g.Pose: {"r": (3,), "T": (3, 3)},
     g.Span: {"start": (3,), "end": (3,)},
@@ -34,77 +34,77 @@ FIXED: dict[type, dict[str, tuple[int | None, ...]]] = {
     g.Curve: {"section": (2,), "rest_points": (None, 3)},
     g.Mesh: {"vertices": (None, 3), "triangles": (None, 3), "modes": (None, None, 3)},
 }
-# Points that the pose takes over where they vary.
+# Points that may vary although the shape is rigid: their motion is added to that of the pose.
 CARRIED: dict[type, dict[str, tuple[int | None, ...]]] = {g.Box: {"center": (3,)}, g.Sphere: {"center": (3,)}}
-# What "does not vary" means of evaluated numbers, relative to the largest of them: rounding.
-STILL = 1e-9
+# Evaluated numbers are constant if they vary by less than this fraction of the largest one: round-off.
+CONSTANT = 1e-9
 
 
-def read(
-    seen: Sequence[Seen], more: Iterable[Any], evaluate: Evaluate, time: np.ndarray
-) -> tuple[list[Seen], list[np.ndarray]]:
+def evaluate_shapes(
+    seen: Sequence[PartShape], more: Iterable[Any], evaluate: Evaluate, time: np.ndarray
+) -> tuple[list[PartShape], list[np.ndarray]]:
     """Return the shapes with arrays in place of expressions, and further scalars over time.
 
-    What varies has the shape (times, ...); None stays None, and is NaN in a section.
+    Arrays that vary with time have the shape (times, ...). None stays None, but becomes NaN in a section.
 
     Parameters
     ----------
-    seen : sequence of Seen
-        As collected, values along curves without calls.
+    seen : sequence of PartShape
+        From `collect`, with the entries of all `Values` evaluated.
     more : iterable of casadi.SX, shape (1, 1)
-        Scalars.
+        Further scalars.
     evaluate : callable
-        From a column of n expressions in the model's symbols to an array of shape (times, n).
+        Maps a column of n expressions in the model's symbols to an array of shape (times, n).
     time : array, shape (times,)
         In s.
 
     Raises
     ------
     DeclarationError
-        If an entry has not the shape that its kind of geometry needs, or varies where it may not.
+        If a field has the wrong array shape, or varies although it must be constant.
     """
-    asking = _Asking()
+    collector = _Collector()
     for one in seen:
-        _resolved(one.shape, one, asking)
-    scalars = [asking.column(expression) for expression in more]
-    giving = _Giving(asking, evaluate, time)
-    return [replace(one, shape=_resolved(one.shape, one, giving)) for one in seen], [
-        giving.values[:, at].reshape(len(time)) for at in scalars
+        _mapped(one.shape, one, collector)
+    scalars = [collector.column(expression) for expression in more]
+    results = _Results(collector, evaluate, time)
+    return [replace(one, shape=_mapped(one.shape, one, results)) for one in seen], [
+        results.values[:, at].reshape(len(time)) for at in scalars
     ]
 
 
-def _resolved(shape: Any, of: Seen, take: Any) -> Any:
-    """Return a shape whose entries are what `take` makes of them, in a fixed order."""
-    known = take.poses.get(id(shape)) if isinstance(shape, g.Pose) else None
+def _mapped(shape: Any, owner: PartShape, visitor: Any) -> Any:
+    """Return a shape with `visitor` applied to its fields, always in the same order."""
+    known = visitor.poses.get(id(shape)) if isinstance(shape, g.Pose) else None
     if known is not None:
         return known
     found: dict[str, Any] = {}
     for name in ("pose", "rest"):
         if getattr(shape, name, None) is not None:
-            found[name] = _resolved(getattr(shape, name), of, take)
+            found[name] = _mapped(getattr(shape, name), owner, visitor)
     if isinstance(shape, g.Curve):
-        found["values"] = tuple(_resolved(values, of, take) for values in shape.values)
-    for moves, names in ((True, MOVING), (True, CARRIED), (False, FIXED)):
+        found["values"] = tuple(_mapped(values, owner, visitor) for values in shape.values)
+    for varies, names in ((True, MOVING), (True, CARRIED), (False, FIXED)):
         for name, size in names.get(type(shape), {}).items():
             value = getattr(shape, name)
             if value is not None:
-                found[name] = take(
-                    value, size, moves, lambda n=name: f"`{n}` of the {type(shape).__name__} of {_of(of)}"
+                found[name] = visitor(
+                    value, size, varies, lambda n=name: f"`{n}` of the {type(shape).__name__} of {_path(owner)}"
                 )
     made = replace(shape, **found)
     if type(shape) in CARRIED:
-        made = take.carried(made)
+        made = visitor.carried(made)
     if isinstance(shape, g.Pose):
-        take.poses[id(shape)] = made
+        visitor.poses[id(shape)] = made
     return made
 
 
-def _of(seen: Seen) -> str:
+def _path(seen: PartShape) -> str:
     return f"{seen.path or 'the model'} ({seen.kind})"
 
 
-class _Asking:
-    """Stacks expressions."""
+class _Collector:
+    """First visitor: stacks all expressions into one column."""
 
     def __init__(self) -> None:
         self.columns: list[Any] = []
@@ -114,16 +114,16 @@ class _Asking:
         self.poses: dict[int, Any] = {}
 
     def column(self, column: Any) -> slice:
-        """Add a column; return its place."""
+        """Add a column and return its rows."""
         self.columns.append(dense(column))
         self.size += column.numel()
         return slice(self.size - column.numel(), self.size)
 
     def carried(self, shape: Any) -> Any:
-        """Return the shape as it is."""
+        """Return the shape unchanged."""
         return shape
 
-    def __call__(self, value: Any, size: tuple[int | None, ...], moves: bool, name: Callable[[], str]) -> Any:
+    def __call__(self, value: Any, size: tuple[int | None, ...], varies: bool, name: Callable[[], str]) -> Any:
         value = _number(value)
         if isinstance(value, np.ndarray):
             self.places.append(None)
@@ -139,17 +139,17 @@ class _Asking:
         return value
 
 
-class _Giving:
-    """Hands out values in the order in which they were asked for."""
+class _Results:
+    """Second visitor: replaces the expressions, in the same order, by their values."""
 
-    def __init__(self, asked: _Asking, evaluate: Evaluate, time: np.ndarray) -> None:
+    def __init__(self, collected: _Collector, evaluate: Evaluate, time: np.ndarray) -> None:
         self.time, self.times = time, (times := len(time))
-        self.values = np.asarray(evaluate(stacked(asked.columns))) if asked.size else np.empty((times, 0))
+        self.values = np.asarray(evaluate(stacked(collected.columns))) if collected.size else np.empty((times, 0))
         self.poses: dict[int, Any] = {}
-        self._next = iter(zip(asked.places, asked.sizes, strict=True))
+        self._next = iter(zip(collected.places, collected.sizes, strict=True))
 
     def carried(self, shape: Any) -> Any:
-        """Return a shape about a fixed point of its pose, which moves in place of it."""
+        """Return a shape with a constant center: the motion of the center is added to its pose."""
         for name in CARRIED[type(shape)]:
             at, pose = getattr(shape, name), shape.pose
             known = np.isfinite(at).all(axis=1)
@@ -160,44 +160,43 @@ class _Giving:
                 shape = replace(shape, **{name: at[0]})
         return shape
 
-    def __call__(self, value: Any, size: tuple[int | None, ...], moves: bool, name: Callable[[], str]) -> Any:
+    def __call__(self, value: Any, size: tuple[int | None, ...], varies: bool, name: Callable[[], str]) -> Any:
         place, shape = next(self._next)
         if place is None:
             numbers = _number(value)
-            return np.broadcast_to(numbers, (self.times, *shape)) if moves else numbers
+            return np.broadcast_to(numbers, (self.times, *shape)) if varies else numbers
         found = self.values[:, place]
         found = found.reshape(self.times, *shape, order="F") if shape else found[:, 0]
-        if moves:
+        if varies:
             return found
         finite = np.isfinite(found).reshape(self.times, -1)
-        known = np.asarray(
-            finite[:, finite.any(axis=0)].all(axis=1)
-        )  # an entry that never is finite is one that is left open
+        # An entry that is never finite was declared as None.
+        known = np.asarray(finite[:, finite.any(axis=0)].all(axis=1))
         if not known.any():
             return found[0]
         if _varies(found[known]):
             raise DeclarationError(
-                f"{name()} varies with time; only the pose of such a shape may, or the center of a Box or Sphere, the ends of a "
-                "Span or points of a Curve."
+                f"{name()} varies with time. Only a pose, the center of a Box or Sphere, the ends of a Span and the points of a "
+                "Curve can vary."
             )
         if not known.all():
-            caution(f"{name()} is {not_finite(known, self.time)}; it is drawn as at the others.")
+            caution(f"{name()} is {not_finite(known, self.time)}; the value of the other frames is taken there.")
         return found[known][0]
 
 
 def not_finite(known: np.ndarray, time: np.ndarray) -> str:
-    """Say at which frames a value is not finite, from whether it is at each."""
+    """Describe the frames at which a value is not finite; `known` is True where it is."""
     lost = np.flatnonzero(~known)
     return f"not a finite number at {len(lost)} of {len(time)} frames, the first at t = {time[lost[0]]:.6g} s"
 
 
 def _varies(values: np.ndarray) -> bool:
-    """Whether values vary over time, the first dimension, by more than rounding."""
-    return np.nanmax(np.abs(values - values[0]), initial=0) > STILL * np.nanmax(np.abs(values), initial=0)
+    """Return whether values vary over time, the first dimension, by more than round-off."""
+    return np.nanmax(np.abs(values - values[0]), initial=0) > CONSTANT * np.nanmax(np.abs(values), initial=0)
 
 
 def _number(value: Any) -> Any:
-    """Return numbers as an array, None among them as NaN, and anything else as it is."""
+    """Return numbers as an array with None as NaN, and anything else unchanged."""
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif":
         return value
     if value is None or isinstance(value, int | float | np.number):

@@ -1,4 +1,4 @@
-"""What the numbers of a shape must be, once they are known."""
+"""Check the evaluated numbers of a shape."""
 
 from __future__ import annotations
 
@@ -8,27 +8,27 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen
+from acausal.animation.collect import PartShape
 from acausal.errors import DeclarationError
 
-SQUARE = 1e-6  # what products of unit vectors across each other may be: rounding, and digits that were typed
+ORTHONORMAL = 1e-6  # largest error of products of unit vectors: rounding, and vectors typed with six or more digits
 
 
-def check(one: Seen) -> None:
+def check_shape(one: PartShape) -> None:
     """Refuse a shape that cannot be drawn.
 
     Raises
     ------
     DeclarationError
-        If a fixed number is not finite or negative, a direction has length 0, or the parts of a mesh or curve do not fit.
+        If a number is not finite or a length is negative, a direction is zero, or the arrays of a mesh or curve do not match.
     """
-    for name, what in _wrong(one.shape):
+    for name, what in _faults(one.shape):
         owner = f"{one.path or 'the model'} ({one.kind})"
         raise DeclarationError(f"`{name}` of the {type(one.shape).__name__} of {owner} {what}.")
 
 
-def _wrong(shape: Any) -> Iterator[tuple[str, str]]:
-    """Yield fields, and what is wrong with them."""
+def _faults(shape: Any) -> Iterator[tuple[str, str]]:
+    """Yield each faulty field and its fault, as the rest of a sentence."""
     for name in (
         "up",
         "center",
@@ -50,26 +50,29 @@ def _wrong(shape: Any) -> Iterator[tuple[str, str]]:
         if name in ("size", "length", "diameter", "section") and np.any(np.asarray(value) < 0):
             yield name, "is negative"
         if name in ("up", "axis") and not np.any(value):
-            yield name, "has length 0; give a direction, such as (0, 0, 1)"
-    if isinstance(shape, g.Box) and np.abs(shape.axes @ shape.axes.T - np.eye(3)).max() > SQUARE:
-        yield "axes", "are not three unit vectors across each other, a row each"
+            yield name, "is zero. Give a direction, such as (0, 0, 1)"
+    if isinstance(shape, g.Box) and np.abs(shape.axes @ shape.axes.T - np.eye(3)).max() > ORTHONORMAL:
+        yield "axes", "are not three orthogonal unit vectors, one in each row"
     if isinstance(shape, g.Curve) and shape.points.shape[1] < 2:
-        yield "points", "needs two points or more"
+        yield "points", "needs at least two points"
     if isinstance(shape, g.Mesh):
-        yield from _wrong_mesh(shape)
+        yield from _mesh_faults(shape)
 
 
-def _wrong_mesh(mesh: g.Mesh) -> Iterator[tuple[str, str]]:
+def _mesh_faults(mesh: g.Mesh) -> Iterator[tuple[str, str]]:
     count, triangles = len(mesh.vertices), np.asarray(mesh.triangles)
     if not np.isfinite(mesh.vertices).all():
         yield "vertices", "has an entry that is not a finite number"
     if count == 0:
         yield "vertices", "is empty"
     if np.any(triangles < 0) or np.any(triangles >= count) or np.any(triangles != np.floor(triangles)):
-        yield "triangles", f"names other rows than those of its {count} vertices, 0 to {count - 1}"
+        yield "triangles", f"contains an index outside 0 to {count - 1}, the rows of `vertices`"
     if (mesh.modes is None) != (mesh.q is None):
-        yield "modes", "and `q` are given together, or neither"
+        yield "modes", "and `q` must both be given, or neither"
     if mesh.modes is not None and mesh.q is not None:
         wanted = (mesh.q.shape[1], count, 3)
         if np.shape(mesh.modes) != wanted or not np.isfinite(mesh.modes).all():
-            yield "modes", f"must be finite numbers of shape {wanted}: for each entry of `q`, for each vertex"
+            yield (
+                "modes",
+                f"must be finite numbers of shape {wanted}: a displacement of each vertex for each entry of `q`",
+            )

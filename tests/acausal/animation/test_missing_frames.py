@@ -1,4 +1,4 @@
-"""A shape whose place is not finite at some times is drawn with a warning of part and time; one that fails is named."""
+"""Shapes with a position that is not finite at some times are drawn with a warning; shapes() that fails is located."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 import acausal as ac
 from acausal import Model, as_expr, chain, fixed, geometry, sqrt, time
 from acausal.animation.document import document
-from acausal.animation.scene import scene_of, shown
+from acausal.animation.scene import scene_of, shapes_of
 from acausal.result.animated import run_of
 from components import Body, Revolute, World
 from components.frame import pose
@@ -58,11 +58,11 @@ ONE = 1 + 1e-30 * LATE
         (lambda p: geometry.Box(p, (0, LATE, 0), (1, 1, 1)), r"Box of bob_ \(Odd\) .* 10 of 21 .* t = 0\.55 s"),
         (
             lambda p: geometry.Sphere(geometry.Pose(p.r + as_expr((LATE, 0, 0)), p.T), diameter=0.1),
-            r"place of the Sphere of bob_ \(Odd\) .* the first at t = 0\.55 s",
+            r"position of the Sphere of bob_ \(Odd\) .* the first at t = 0\.55 s",
         ),
         (
             lambda p: geometry.Span(p.r, p.r + as_expr((LATE, 0, 0))),
-            r"place of the Span of bob_ \(Odd\) .* t = 0\.55 s",
+            r"position of the Span of bob_ \(Odd\) .* t = 0\.55 s",
         ),
         (
             lambda p: geometry.Cylinder(p, (0, 0, 0), (ONE, 0, 0), 0.1),
@@ -85,7 +85,7 @@ def test_a_center_that_moves_is_where_it_says():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         run = run_of(result)
-        sphere = next(one.shape for one in scene_of(run, shown([run.tree])[0]).seen if one.path == "bob_")
+        sphere = next(one.shape for one in scene_of(run, shapes_of([run.tree])[0]).shapes if one.path == "bob_")
     phi, t = result["joint.phi"], result.time
     along, aside = 0.5 - 0.2 * t, 0.1
     x, y = along * np.cos(phi) - aside * np.sin(phi), along * np.sin(phi) + aside * np.cos(phi)
@@ -109,9 +109,9 @@ def fails_later(p):
 @pytest.mark.parametrize(
     ("look", "says"),
     [
-        (fails, r"bob_ \(Odd\), .*test_gaps\.py:\d+: shapes\(\) fails: ZeroDivisionError: division by zero"),
-        (lambda p: p.absent, r"bob_ \(Odd\), .*test_gaps\.py:\d+: shapes\(\) fails: AttributeError"),
-        (fails_later, r"bob_ \(Odd\), .*test_gaps\.py:\d+: shapes\(\) fails: IndexError"),
+        (fails, r"bob_ \(Odd\), .*test_missing_frames\.py:\d+: shapes\(\) fails: ZeroDivisionError: division by zero"),
+        (lambda p: p.absent, r"bob_ \(Odd\), .*test_missing_frames\.py:\d+: shapes\(\) fails: AttributeError"),
+        (fails_later, r"bob_ \(Odd\), .*test_missing_frames\.py:\d+: shapes\(\) fails: IndexError"),
     ],
 )
 def test_a_shape_that_fails_is_named_with_its_line(tmp_path, look, says):

@@ -1,4 +1,4 @@
-"""Shapes that cannot be drawn are refused in words, before a page holds them."""
+"""Shapes that cannot be drawn raise an error before a page is written."""
 
 from __future__ import annotations
 
@@ -42,14 +42,17 @@ def drawn(monkeypatch: pytest.MonkeyPatch, make: Callable[[Any, Any], Any]) -> d
         (lambda r, at: geometry.Sphere(at, diameter=-1), "`diameter` of the Sphere of the model (Slides) is negative"),
         (lambda r, at: geometry.Sphere(at, center=(np.nan, 0, 0)), "not a finite number"),
         (lambda r, at: geometry.Box(at, (0, 0, 0), (1, -1, 1)), "`size` of the Box"),
-        (lambda r, at: geometry.Box(at, (0, 0, 0), (1, 1, 1), ((1, 0, 0), (1, 0, 0), (0, 0, 1))), "three unit vectors"),
-        (lambda r, at: geometry.Axle(at, (0, 0, 0)), "`axis` of the Axle of the model (Slides) has length 0"),
+        (
+            lambda r, at: geometry.Box(at, (0, 0, 0), (1, 1, 1), ((1, 0, 0), (1, 0, 0), (0, 0, 1))),
+            "orthogonal unit vectors",
+        ),
+        (lambda r, at: geometry.Axle(at, (0, 0, 0)), "`axis` of the Axle of the model (Slides) is zero"),
         (lambda r, at: geometry.Span((0, 0, 0), r, style="zigzag"), "'coil', 'rod', 'rail'"),
         (lambda r, at: geometry.Arrow(r, r, "speed"), "'force', 'torque'"),
-        (lambda r, at: geometry.Curve([r]), "needs two points or more"),
-        (lambda r, at: geometry.Mesh(at, CORNERS, ((0, 1, 3),)), "its 3 vertices, 0 to 2"),
-        (lambda r, at: geometry.Mesh(at, CORNERS, ((0, 1, -1),)), "its 3 vertices, 0 to 2"),
-        (lambda r, at: geometry.Mesh(at, CORNERS, FACE, q=(r[0],)), "given together"),
+        (lambda r, at: geometry.Curve([r]), "needs at least two points"),
+        (lambda r, at: geometry.Mesh(at, CORNERS, ((0, 1, 3),)), "outside 0 to 2"),
+        (lambda r, at: geometry.Mesh(at, CORNERS, ((0, 1, -1),)), "outside 0 to 2"),
+        (lambda r, at: geometry.Mesh(at, CORNERS, FACE, q=(r[0],)), "both be given"),
         (lambda r, at: geometry.Mesh(at, CORNERS, FACE, modes=np.ones((2, 3, 3)), q=(r[0],)), "(1, 3, 3)"),
     ],
 )

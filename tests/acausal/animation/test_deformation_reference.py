@@ -1,4 +1,4 @@
-"""Enlarged deformations tear nothing off: where something stands at the far end of a beam, they are measured from its chord."""
+"""Exaggerated deformations detach nothing: a beam with a shape at its far end deforms from its chord."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import pytest
 import acausal as ac
 from acausal import Model, chain, connect, fixed
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen
+from acausal.animation.collect import PartShape
+from acausal.animation.deformation_reference import with_references
 from acausal.animation.document import document
-from acausal.animation.rests import untorn
 from acausal.result.animated import run_of
 from components import Body, FlexibleBeam, Revolute, SubstructuredBeam, World, WorldForce
 
@@ -100,5 +100,5 @@ def test_what_comes_near_once_does_not_hold() -> None:
         (g.Sphere(g.Pose(points[:, 1] + 1e-9, T)), True),
         (g.Arrow(points[:, 1], points[:, 1]), False),
     ):
-        found = untorn([Seen("beam", "Beam", curve), Seen("other", "Other", other)])
+        found = with_references([PartShape("beam", "Beam", curve), PartShape("other", "Other", other)])
         assert (found[0].shape.rest is None) == chord

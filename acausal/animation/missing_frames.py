@@ -1,4 +1,4 @@
-"""Frames at which a shape has no place: what they show instead."""
+"""Interpolate shapes at frames where their position is not finite."""
 
 from __future__ import annotations
 
@@ -8,46 +8,46 @@ from typing import Any
 
 import numpy as np
 
-from acausal.animation.collect import Seen
-from acausal.animation.reading import MOVING, not_finite
+from acausal.animation.collect import PartShape
+from acausal.animation.evaluation import MOVING, not_finite
 from acausal.errors import caution
 
 
-def without_gaps(seen: Sequence[Seen], time: np.ndarray) -> list[Seen]:
-    """Return shapes whose values are finite, by straight lines over time where they were not; warn of these.
+def fill_missing_frames(seen: Sequence[PartShape], time: np.ndarray) -> list[PartShape]:
+    """Return shapes with finite values: others are interpolated linearly in time, with a warning.
 
-    A shape with a value that is never finite is left out.
+    A shape with a value that is never finite is omitted.
     """
-    kept, doubtful, lost = [], [], []
+    finite_shapes, interpolated, omitted = [], [], []
     for one in seen:
         finite = [np.isfinite(array).all(axis=tuple(range(1, array.ndim))) for array in _arrays(one.shape)]
         if all(rows.all() for rows in finite):
-            kept.append(one)
+            finite_shapes.append(one)
         elif all(rows.any() for rows in finite):
-            doubtful.append((one, np.all(finite, axis=0)))
-            kept.append(replace(one, shape=_filled(one.shape, time)))
+            interpolated.append((one, np.all(finite, axis=0)))
+            finite_shapes.append(replace(one, shape=_filled(one.shape, time)))
         else:
-            lost.append(one)
-    if doubtful:
-        named, when = _named([one for one, _ in doubtful]), not_finite(doubtful[0][1], time)
+            omitted.append(one)
+    if interpolated:
+        named, when = _named([one for one, _ in interpolated]), not_finite(interpolated[0][1], time)
         caution(
-            f"the place of {named} is {when}; it is drawn where it would be if it moved evenly from the frame before to the one "
-            "after, and rested where there is none."
+            f"the position of {named} is {when}; it is interpolated linearly between the neighbouring frames and held constant "
+            "before the first and after the last finite one."
         )
-    if lost:
-        caution(f"{_named(lost)} is left out: one of its values is never a finite number.")
-    return kept
+    if omitted:
+        caution(f"{_named(omitted)} is not drawn: one of its values is never a finite number.")
+    return finite_shapes
 
 
-def _named(seen: Iterable[Seen]) -> str:
-    """Name the first shape, and how many more there are."""
+def _named(seen: Iterable[PartShape]) -> str:
+    """Name the first shape and count the others."""
     first, *more = seen
     others = f" and of {len(more)} other shape{'s' * (len(more) > 1)}" if more else ""
     return f"the {type(first.shape).__name__} of {first.path or 'the model'} ({first.kind}){others}"
 
 
 def _arrays(shape: Any) -> Iterator[np.ndarray]:
-    """Yield what varies."""
+    """Yield the arrays that vary with time."""
     for name in MOVING.get(type(shape), ()):
         if getattr(shape, name) is not None:
             yield getattr(shape, name)
@@ -63,7 +63,7 @@ def _filled(shape: Any, time: np.ndarray) -> Any:
     for field in fields(shape):
         value = getattr(shape, field.name)
         if field.name in MOVING.get(type(shape), ()) and value is not None:
-            more[field.name] = _between(value, time)
+            more[field.name] = _interpolated(value, time)
         elif is_dataclass(value):
             more[field.name] = _filled(value, time)
         elif isinstance(value, tuple) and value and is_dataclass(value[0]):
@@ -71,7 +71,7 @@ def _filled(shape: Any, time: np.ndarray) -> Any:
     return replace(shape, **more)
 
 
-def _between(values: np.ndarray, time: np.ndarray) -> np.ndarray:
+def _interpolated(values: np.ndarray, time: np.ndarray) -> np.ndarray:
     flat = values.reshape(len(time), -1).copy()
     finite = np.isfinite(flat).all(axis=1)
     for column in flat.T:
