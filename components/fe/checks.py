@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import sys
-import warnings
 from typing import Any
 
 import numpy as np
 
-from acausal import AcausalWarning, DeclarationError
+from acausal import DeclarationError
 from components.fe.arrays import Array
 from components.fe.nodes import named
 from components.fe.solid import Solid, rigid_motions
+from components.fe.user_warning import warn
 
 # Of the larger entries that an entry stands beside. Files have 13 digits and more.
 SYMMETRY = 1e-8
@@ -229,11 +228,3 @@ def _plausible(body: Solid) -> None:
             f"the body has {' and '.join(said)}, as no solid: are nodes in m, masses in kg, and stiffness in N/m? "
             "The readers take length= and mass=, as length=1e-3, mass=1e3 for mm, N and Mg."
         )
-
-
-def warn(text: str) -> None:
-    """Warn with the line of the user: the innermost one outside this package."""
-    level, frame = 1, sys._getframe(0)
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("components.fe"):
-        level, frame = level + 1, frame.f_back
-    warnings.warn(AcausalWarning(text), stacklevel=level)

@@ -11,10 +11,10 @@ import numpy as np
 
 from acausal import DeclarationError
 from components.fe.arrays import Array
-from components.fe.checks import warn
 from components.fe.circle import circle_of
 from components.fe.faces import area_weights
 from components.fe.spiders import Spider, indices
+from components.fe.user_warning import warn
 
 # Coordinates come from files with six or seven digits: nodes nearer to a line than this part of their extent are on it.
 ON_A_LINE = 1e-5
