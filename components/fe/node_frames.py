@@ -12,7 +12,7 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.arrays import Array
 from components.fe.circle import circle_of
-from components.fe.faces import area_weights
+from components.fe.elements.faces import area_weights
 from components.fe.spiders import Spider, indices
 from components.fe.user_warning import warn
 

@@ -12,7 +12,7 @@ import pytest
 
 import acausal as ac
 from components.fe import FrameLoad, NodalResult, Readings, as_result, reduce_body, simulate_reconfigured
-from components.fe.faces import area_weights
+from components.fe.elements.faces import area_weights
 from tests.components.fe import bodies
 from tests.components.fe.test_reconfigured import PLACES, lopsided, plate, pulse
 

@@ -9,8 +9,19 @@ import numpy as np
 
 from components.fe.arrays import Array
 from components.fe.elements.quadratic import EDGES as QUADRATIC
-from components.fe.skin import FACES
 
+# Faces by the corners of a solid, in any sense of rotation. Nodes on edges follow the corners.
+HEXAHEDRON = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+TETRAHEDRON = ((0, 1, 2, 2), (0, 1, 3, 3), (1, 2, 3, 3), (2, 0, 3, 3))
+WEDGE = ((0, 1, 2, 2), (3, 4, 5, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
+FACES = {
+    "tetra": TETRAHEDRON,
+    "tetra10": TETRAHEDRON,
+    "wedge": WEDGE,
+    "wedge15": WEDGE,
+    "hexahedron": HEXAHEDRON,
+    "hexahedron20": HEXAHEDRON,
+}
 # Edges by their two corners, in the order of the nodes on them.
 EDGES = {**QUADRATIC, "wedge15": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]}
 # Gauss points of a square of side 1, exact to degree 5 in each direction.
