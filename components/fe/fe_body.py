@@ -31,7 +31,7 @@ from acausal import (
     variable,
 )
 from components.fe.chosen import critical_damping, nominal, with_modes
-from components.fe.frame_checks import check_free
+from components.fe.free_body import check_free
 from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning, welded
 from components.fe.reconfigured_inertia import ReconfiguredInertia
