@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Any
 from components.fe.elements import assemble, box
 from components.fe.fe_body import FEBody
 from components.fe.formats import read_npz
-from components.fe.nodal_field import NodalField
 from components.fe.nodes import Nodes
-from components.fe.reduced_body import Interface, ReducedBody
-from components.fe.reduction import reduce_body
-from components.fe.spiders import average, frame_at, rigid
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.nodal_field import NodalField
+from components.fe.reduction.reduce import reduce_body
+from components.fe.reduction.reduced_body import ReducedBody
+from components.fe.reduction.spiders import average, frame_at, rigid
 
 __all__ = [
     "FEBody",

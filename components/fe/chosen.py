@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.reduced_body import ReducedBody
 
 # Of the size of a body, the root mean square of the distance of its mass from its centre: how far it may deflect.
 DEFLECTION = 0.1

@@ -35,7 +35,8 @@ from components.fe.free_body import check_free
 from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning, welded
 from components.fe.reconfigured_inertia import ReconfiguredInertia
-from components.fe.reduced_body import Interface, ReducedBody
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.reduced_body import ReducedBody
 from components.fe.skin import box_of_inertia, mesh
 from components.frame import Frame, move, pose
 from components.moving_body import MovingBody, off_centre, past_centre

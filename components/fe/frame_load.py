@@ -11,7 +11,8 @@ import numpy as np
 
 from acausal import AcausalWarning, DeclarationError
 from components.fe.arrays import Array
-from components.fe.reduced_body import Interface, ReducedBody
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.reduced_body import ReducedBody
 
 Course = Sequence[float] | Array | Callable[[float], Any]
 # Of a run: breaks that are nearer are one, far above rounding of their times.

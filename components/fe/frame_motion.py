@@ -10,7 +10,7 @@ import numpy as np
 from acausal import DeclarationError, March
 from components.fe.arrays import Array
 from components.fe.free_modes import FreeModes
-from components.fe.reduced_body import Interface
+from components.fe.reduction.interface import Interface
 
 RULES = ("modal", "moving")
 

@@ -12,7 +12,7 @@ from components.fe.arrays import Array
 from components.fe.frame_checks import WHOLE, too_fast
 from components.fe.frame_motion import FrameMotion
 from components.fe.frame_steps import STAGES
-from components.fe.reduced_body import Interface
+from components.fe.reduction.interface import Interface
 
 Named = dict[str, tuple[Any, str]]
 UNITS = {"r_0": "m", "R.T": "1", "R.w": "rad/s", "v": "m/s", "a": "m/s2", "z": "rad/s2", "Q": "1"}

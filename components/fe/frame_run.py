@@ -18,7 +18,7 @@ from components.fe.frame_checks import WHOLE
 from components.fe.frame_load import FrameLoad, sampled
 from components.fe.frame_result import as_result
 from components.fe.reconfigured import simulate_reconfigured
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.reduced_body import ReducedBody
 
 Loads = Sequence[FrameLoad] | Callable[[Any], Sequence[FrameLoad]]
 # Of the largest load: how near those of the scene are, which follow from the states by rotations.

@@ -11,7 +11,7 @@ import numpy as np
 from acausal import DeclarationError, as_expr, cross
 from components.fe.arrays import Array
 from components.fe.free_modes import FreeModes
-from components.fe.node_frames import ON_A_LINE
+from components.fe.reduction.node_frames import ON_A_LINE
 from components.rotation_vector import attitude, rate
 
 STAGES = (0.0, 0.5, 0.5, 1.0)

@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal import DeclarationError
 from components.fe.arrays import Array
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.reduced_body import ReducedBody
 
 # Of the size that an integral can have: what is rounding, as of the integrals that `reduce_body` cuts.
 ORTHOGONAL = 1e-7

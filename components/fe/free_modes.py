@@ -10,7 +10,8 @@ import numpy as np
 
 from acausal import as_expr
 from components.fe.arrays import Array
-from components.fe.reduced_body import Interface, ReducedBody
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.reduced_body import ReducedBody
 
 # The Levi-Civita symbol: (e_k x r)_i = PERMUTED[i, k, l] r_l.
 PERMUTED = np.array([[[(i - j) * (j - k) * (k - i) / 2 for k in range(3)] for j in range(3)] for i in range(3)])

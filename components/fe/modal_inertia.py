@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal import as_expr, cross, dot, quantity
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.reduced_body import ReducedBody
 
 # A symmetric matrix is kept as two entries of its diagonal, those beside it, and its trace: the trace of B is M, which has
 # few entries where modes are orthogonal, so that five and not six products of full matrices are left.

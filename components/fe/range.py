@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from acausal import dot, expect, quantity, require, sqrt
-from components.fe.reduced_body import Interface, ReducedBody
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.reduced_body import ReducedBody
 
 # Of the square of the first frequency: what w^2 may reach, which is the part of the stiffness that is missing. At half of the
 # first frequency the spin-up beam deflects by a tenth more than the true one (docs/fe.md).

@@ -19,7 +19,7 @@ from components.fe.frame_motion import FrameMotion
 from components.fe.frame_steps import Readings
 from components.fe.free_body import check_free
 from components.fe.free_modes import FreeModes
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.reduced_body import ReducedBody
 
 Vector = Sequence[float] | Array
 VARIANTS = ("corrected", "paper")

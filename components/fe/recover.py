@@ -16,8 +16,8 @@ from acausal.result import check_writable, shown_name
 from acausal.result.files import whole
 from components.fe.elements.material import Material
 from components.fe.elements.stress import COMPONENTS, operator, to_nodes
-from components.fe.nodal_field import NodalField
-from components.fe.reduced_body import ReducedBody, alike
+from components.fe.reduction.nodal_field import NodalField
+from components.fe.reduction.reduced_body import ReducedBody, alike
 
 AXES = ("world", "body")
 

@@ -9,8 +9,8 @@ import numpy as np
 from acausal import geometry
 from components.fe.arrays import Array
 from components.fe.elements.faces import FACES
-from components.fe.nodal_field import NodalField
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.nodal_field import NodalField
+from components.fe.reduction.reduced_body import ReducedBody
 
 
 def skin(nodal: NodalField) -> tuple[Array, Array]:

@@ -73,7 +73,7 @@ EXTRAS = {
 # Files of components that read and write files, or are a command, as the engine does.
 FILES = {"acausal.result", "acausal.result.files"}
 INSIDE = {
-    "components/fe/archive.py": FILES,
+    "components/fe/reduction/archive.py": FILES,
     "components/fe/formats/foreign.py": FILES,
     "components/fe/formats/kinds.py": FILES,
     "components/fe/formats/matrix_market.py": FILES,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError
-from components.fe.archive import WRONG, said
+from components.fe.reduction.archive import WRONG, said
 
 PLACES = ("coords_m", "coords_mm", "nodes")
 

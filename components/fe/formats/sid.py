@@ -9,7 +9,8 @@ import numpy as np
 from acausal.result.files import whole
 from components.fe.formats.sid_tree import DIGITS, Block, Taylor, index_order, read_tree, taylor
 from components.fe.formats.text import doubt, number, wrong
-from components.fe.reduced_body import Interface, ReducedBody
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.reduced_body import ReducedBody
 
 # w1^2, w2^2, w3^2, w1 w2, w2 w3, w1 w3: the columns of Oe.
 PRODUCTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))

@@ -8,7 +8,7 @@ import pytest
 
 from acausal import Expr, as_expr
 from components.fe.modal_inertia import ModalInertia
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.reduced_body import ReducedBody
 from tests.reference.two_bricks import TwoBricks
 
 MODES = pytest.mark.parametrize("modes", [1, 2, 5])

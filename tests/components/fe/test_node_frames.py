@@ -11,11 +11,11 @@ import acausal as ac
 from acausal import AcausalWarning, DeclarationError, Model, chain, fixed
 from components import Body, FixedRotation, Revolute, World
 from components.fe import FEBody, Nodes, assemble, average, frame_at, read_sid, reduce_body, rigid, write_sid
-from components.fe.circle import circle_of
 from components.fe.elements.box import mesh
 from components.fe.elements.faces import area_weights
-from components.fe.node_frames import frame
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduction.circle_fit import circle_of
+from components.fe.reduction.node_frames import frame
+from components.fe.reduction.reduced_body import ReducedBody
 from components.orientation import axis_rotation, unit_vector
 from tests.components.fe import bodies
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import eigh
 
 from components.fe import average, read_npz, reduce_body, rigid
-from components.fe.invariants import axial, usual
+from components.fe.reduction.inertia_invariants import axial, usual
 from tests.components.fe import bodies
 from tests.components.fe.bodies import FILES, HINGE, TIP, block, face, hertz, plate, rod, units
 from tests.shared import pairwise
@@ -130,7 +130,7 @@ def test_frequencies_of_the_plate():
 
 
 def test_sparse_and_dense_ways_agree(monkeypatch):
-    from components.fe import modes
+    from components.fe.reduction import modes
 
     for hold in ("left", "mean-axis", (0, 17, 8)):
         dense = reduced(hold, "held", "rigid", 12)

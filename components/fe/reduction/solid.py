@@ -21,7 +21,7 @@ def rigid_motions(nodes: Array, about: Array, size: float) -> Array:
 
 @dataclass(frozen=True)
 class Solid:
-    """A free body that `checks.solid` has found right.
+    """A free body that `checked_solid` has found right.
 
     Parameters
     ----------

@@ -9,10 +9,10 @@ import numpy as np
 
 from acausal import DeclarationError
 from components.fe.arrays import Array
-from components.fe.frames import null_space
-from components.fe.node_frames import Frame
-from components.fe.ordering import dissection
-from components.fe.solid import Solid
+from components.fe.reduction.nested_dissection import dissection
+from components.fe.reduction.node_frames import Frame
+from components.fe.reduction.reference_frame import null_space
+from components.fe.reduction.solid import Solid
 
 # Freedoms up to which, or share of modes from which on, all modes are computed at once.
 DENSE, SHARE = 600, 0.25

@@ -10,8 +10,8 @@ import numpy as np
 
 from acausal import DeclarationError
 from components.fe.arrays import Array
-from components.fe.node_frames import ON_A_LINE, Frame
-from components.fe.solid import Solid
+from components.fe.reduction.node_frames import ON_A_LINE, Frame
+from components.fe.reduction.solid import Solid
 
 MEAN_AXIS = "mean-axis"
 DIRECTIONS = "xyz"

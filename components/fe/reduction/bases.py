@@ -9,10 +9,10 @@ import numpy as np
 
 from acausal import DeclarationError
 from components.fe.arrays import Array
-from components.fe.frames import Reference, reference, spread
-from components.fe.modes import Flexibility, System, lowest, orthogonal
-from components.fe.node_frames import Frame
-from components.fe.solid import Solid
+from components.fe.reduction.modes import Flexibility, System, lowest, orthogonal
+from components.fe.reduction.node_frames import Frame
+from components.fe.reduction.reference_frame import Reference, reference, spread
+from components.fe.reduction.solid import Solid
 
 BASES = ("held", "free", "craig-bampton")
 # Rows are dependent that differ from a combination of the others by less, where each has the length 1.

@@ -9,7 +9,7 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.arrays import Array
 from components.fe.nodes import named
-from components.fe.solid import Solid, rigid_motions
+from components.fe.reduction.solid import Solid, rigid_motions
 from components.fe.user_warning import warn
 
 # Of the larger entries that an entry stands beside. Files have 13 digits and more.
@@ -27,7 +27,7 @@ DENSITY = (10.0, 3e4)
 SPEED = (20.0, 3e4)
 
 
-def solid(M: Any, K: Any, nodes: Any) -> Solid:
+def checked_solid(M: Any, K: Any, nodes: Any) -> Solid:
     """Check the matrices of a free body.
 
     Parameters

@@ -11,9 +11,9 @@ import numpy as np
 
 from acausal import DeclarationError
 from components.fe.arrays import Array
-from components.fe.circle import circle_of
 from components.fe.elements.faces import area_weights
-from components.fe.spiders import Spider, indices
+from components.fe.reduction.circle_fit import circle_of
+from components.fe.reduction.spiders import Spider, indices
 from components.fe.user_warning import warn
 
 # Coordinates come from files with six or seven digits: nodes nearer to a line than this part of their extent are on it.

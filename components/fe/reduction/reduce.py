@@ -9,14 +9,16 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError
-from components.fe import checks
 from components.fe.arrays import Array
-from components.fe.bases import basis as basis_of
-from components.fe.frames import Reference
-from components.fe.invariants import ROUNDING, invariants
-from components.fe.node_frames import Frame, frames_of
-from components.fe.reduced_body import Interface, NodalField, ReducedBody
-from components.fe.solid import Solid
+from components.fe.reduction.bases import basis as basis_of
+from components.fe.reduction.inertia_invariants import ROUNDING, invariants
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.matrix_checks import checked_solid
+from components.fe.reduction.nodal_field import NodalField
+from components.fe.reduction.node_frames import Frame, frames_of
+from components.fe.reduction.reduced_body import ReducedBody
+from components.fe.reduction.reference_frame import Reference
+from components.fe.reduction.solid import Solid
 
 
 def reduce_body(
@@ -79,7 +81,7 @@ def reduce_body(
     Raises
     ------
     DeclarationError
-        If matrices, nodes or frames cannot be, see `components.fe.checks`, or there are not as many modes.
+        If matrices, nodes or frames are invalid (see `matrix_checks`), or there are fewer modes than requested.
 
     Examples
     --------
@@ -87,7 +89,7 @@ def reduce_body(
     >>> rod = reduce_body(M, K, nodes, frames={"hinge": [0, 2, 4], "tip": [50]}, hold="hinge", modes=9)
     """
     _numbers(modes, frequency)
-    body = checks.solid(M, K, nodes)
+    body = checked_solid(M, K, nodes)
     cells = getattr(nodes, "cells", {})
     found = frames_of(frames, body.nodes, body.empty, cells)
     wanted = None if frequency is not None else int(modes)

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError
-from components.fe import archive
 from components.fe.arrays import Array, frozen
-from components.fe.interface import Interface
-from components.fe.invariants import axial
-from components.fe.nodal_field import NodalField
+from components.fe.reduction import archive
+from components.fe.reduction.inertia_invariants import axial
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.nodal_field import NodalField
 
 # Part of mass or stiffness: far above the rounding of a reduction, far below a change of a design.
 ALIKE = 1e-6
