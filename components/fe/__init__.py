@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
+from components.fe.body.fe_body import FEBody
 from components.fe.elements import assemble, box
-from components.fe.fe_body import FEBody
 from components.fe.formats import read_npz
 from components.fe.nodes import Nodes
 from components.fe.reduction.interface import Interface
@@ -45,6 +45,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from components.fe.body.recovery import NodalResult
     from components.fe.formats.abaqus import read_abaqus
     from components.fe.formats.ansys import read_ansys
     from components.fe.formats.calculix import read_calculix
@@ -59,13 +60,12 @@ if TYPE_CHECKING:
     from components.fe.frame_steps import Readings
     from components.fe.nodes import rows_of
     from components.fe.reconfigured import simulate_reconfigured
-    from components.fe.recover import NodalResult
 
 # What models do not use; some of it loads scipy.sparse.
 _LATER = {
     "FrameLoad": "frame_load",
     "FrameMotion": "frame_motion",
-    "NodalResult": "recover",
+    "NodalResult": "body.recovery",
     "Readings": "frame_steps",
     "as_result": "frame_result",
     "by_steps": "frame_run",

@@ -14,7 +14,7 @@ import numpy as np
 
 from acausal import CompiledStep, March, SimulationError, as_expr
 from components.fe.arrays import Array
-from components.fe.chosen import DEFLECTION
+from components.fe.body.modal_properties import DEFLECTION
 from components.fe.frame_checks import BELOW, MOST, WHOLE, bounds, diverged, limit
 from components.fe.frame_inputs import Inputs
 from components.fe.frame_load import apart

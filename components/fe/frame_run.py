@@ -12,8 +12,8 @@ import numpy as np
 
 from acausal import CompiledModel, DeclarationError, Formulation, Result, simulate
 from components.fe.arrays import Array
-from components.fe.chosen import with_modes
-from components.fe.fe_body import FEBody
+from components.fe.body.fe_body import FEBody
+from components.fe.body.modal_properties import with_modes
 from components.fe.frame_checks import WHOLE
 from components.fe.frame_load import FrameLoad, sampled
 from components.fe.frame_result import as_result

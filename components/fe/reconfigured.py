@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal import AcausalWarning, DeclarationError
 from components.fe.arrays import Array
+from components.fe.body.free_body import check_free
 from components.fe.frame_checks import positive, steps_of, too_fast
 from components.fe.frame_control import controlled
 from components.fe.frame_fixed import fixed
@@ -17,7 +18,6 @@ from components.fe.frame_inputs import Inputs
 from components.fe.frame_load import FrameLoad, breaks_of, check_breaks, sampled
 from components.fe.frame_motion import FrameMotion
 from components.fe.frame_steps import Readings
-from components.fe.free_body import check_free
 from components.fe.free_modes import FreeModes
 from components.fe.reduction.reduced_body import ReducedBody
 

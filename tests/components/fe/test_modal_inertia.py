@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from acausal import Expr, as_expr
-from components.fe.modal_inertia import ModalInertia
+from components.fe.body.modal_inertia import ModalInertia
 from components.fe.reduction.reduced_body import ReducedBody
 from tests.reference.two_bricks import TwoBricks
 

@@ -13,7 +13,7 @@ import acausal as ac
 from acausal import DeclarationError, Model, chain, fixed
 from components import Revolute, World, WorldForce
 from components.fe import FEBody, NodalResult, box, reduce_body
-from components.fe.recover import von_mises
+from components.fe.body.recovery import von_mises
 
 RUBBER = {"E": 1e7, "nu": 0.49, "rho": 17333.0}
 LOAD = 0.02

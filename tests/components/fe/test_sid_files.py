@@ -12,7 +12,7 @@ import pytest
 
 from acausal import AcausalWarning, Expr, as_expr
 from components.fe import ReducedBody, box, read_sid, reduce_body, write_sid
-from components.fe.modal_inertia import ModalInertia
+from components.fe.body.modal_inertia import ModalInertia
 
 STEEL = {"E": 2.1e11, "nu": 0.3, "rho": 7850.0}
 BODY = reduce_body(

@@ -12,8 +12,8 @@ import acausal as ac
 from acausal import Model, chain, fixed, geometry
 from components import Revolute, TwoFrames, World
 from components.fe import FEBody, NodalField, NodalResult, box, reduce_body
+from components.fe.body.skin import box_of_inertia, skin
 from components.fe.elements.faces import FACES
-from components.fe.skin import box_of_inertia, skin
 from components.orientation import axis_rotation
 from models import FEPlate
 from models.fe_plate import plate

@@ -30,14 +30,14 @@ from acausal import (
     structural,
     variable,
 )
-from components.fe.chosen import critical_damping, nominal, with_modes
-from components.fe.free_body import check_free
-from components.fe.modal_inertia import ModalInertia
-from components.fe.range import Moments, spinning, welded
-from components.fe.reconfigured_inertia import ReconfiguredInertia
+from components.fe.body.free_body import check_free
+from components.fe.body.modal_inertia import ModalInertia
+from components.fe.body.modal_properties import critical_damping, nominal, with_modes
+from components.fe.body.reconfigured_inertia import ReconfiguredInertia
+from components.fe.body.skin import box_of_inertia, mesh
+from components.fe.body.validity_range import Moments, spinning, welded
 from components.fe.reduction.interface import Interface
 from components.fe.reduction.reduced_body import ReducedBody
-from components.fe.skin import box_of_inertia, mesh
 from components.frame import Frame, move, pose
 from components.moving_body import MovingBody, off_centre, past_centre
 from components.orientation import (

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal import cross, dot, quantity
-from components.fe.modal_inertia import ModalInertia, _tensor
+from components.fe.body.modal_inertia import ModalInertia, _tensor
 
 
 @dataclass(frozen=True)
