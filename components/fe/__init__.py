@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 from components.fe.body.fe_body import FEBody
 from components.fe.elements import assemble, box
 from components.fe.formats import read_npz
-from components.fe.nodes import Nodes
+from components.fe.nodes import Nodes, rows_of
 from components.fe.reduction.interface import Interface
 from components.fe.reduction.nodal_field import NodalField
 from components.fe.reduction.reduce import reduce_body
@@ -53,22 +53,21 @@ if TYPE_CHECKING:
     from components.fe.formats.mesh import read_mesh
     from components.fe.formats.nastran import read_nastran
     from components.fe.formats.sid import read_sid, write_sid
-    from components.fe.frame_load import FrameLoad
-    from components.fe.frame_motion import FrameMotion
-    from components.fe.frame_result import as_result
-    from components.fe.frame_run import by_steps, run_reconfigured
-    from components.fe.frame_steps import Readings
-    from components.fe.nodes import rows_of
-    from components.fe.reconfigured import simulate_reconfigured
+    from components.fe.reconfigured.load import FrameLoad
+    from components.fe.reconfigured.motion import FrameMotion
+    from components.fe.reconfigured.result import as_result
+    from components.fe.reconfigured.scene_run import by_steps, run_reconfigured
+    from components.fe.reconfigured.simulate import simulate_reconfigured
+    from components.fe.reconfigured.steps import Readings
 
 # What models do not use; some of it loads scipy.sparse.
 _LATER = {
-    "FrameLoad": "frame_load",
-    "FrameMotion": "frame_motion",
+    "FrameLoad": "reconfigured.load",
+    "FrameMotion": "reconfigured.motion",
     "NodalResult": "body.recovery",
-    "Readings": "frame_steps",
-    "as_result": "frame_result",
-    "by_steps": "frame_run",
+    "Readings": "reconfigured.steps",
+    "as_result": "reconfigured.result",
+    "by_steps": "reconfigured.scene_run",
     "read_abaqus": "formats.abaqus",
     "read_ansys": "formats.ansys",
     "read_calculix": "formats.calculix",
@@ -76,9 +75,8 @@ _LATER = {
     "read_mesh": "formats.mesh",
     "read_nastran": "formats.nastran",
     "read_sid": "formats.sid",
-    "rows_of": "nodes",
-    "run_reconfigured": "frame_run",
-    "simulate_reconfigured": "reconfigured",
+    "run_reconfigured": "reconfigured.scene_run",
+    "simulate_reconfigured": "reconfigured.simulate",
     "write_sid": "formats.sid",
 }
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse.linalg import spsolve
 
 from components.fe import box
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
 from models.fe_plate import plate
 from tests.components.fe import bodies
 

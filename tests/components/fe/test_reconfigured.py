@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 
 import acausal as ac
 from components.fe import FrameLoad, FrameMotion, Readings, as_result, reduce_body, simulate_reconfigured
-from components.fe.frame_checks import limit
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
+from components.fe.reconfigured.step_limits import limit
 from models import FEPlate
 from tests.components.fe import bodies
 from tests.reference import inertial_frames

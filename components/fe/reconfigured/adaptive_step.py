@@ -15,12 +15,12 @@ import numpy as np
 from acausal import CompiledStep, March, SimulationError, as_expr
 from components.fe.arrays import Array
 from components.fe.body.modal_properties import DEFLECTION
-from components.fe.frame_checks import BELOW, MOST, WHOLE, bounds, diverged, limit
-from components.fe.frame_inputs import Inputs
-from components.fe.frame_load import apart
-from components.fe.frame_motion import FrameMotion
-from components.fe.frame_steps import Loads, State, corrected
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
+from components.fe.reconfigured.load import apart
+from components.fe.reconfigured.motion import FrameMotion
+from components.fe.reconfigured.step_inputs import Inputs
+from components.fe.reconfigured.step_limits import BELOW, MOST, WHOLE, bounds, diverged, limit
+from components.fe.reconfigured.steps import Loads, State, corrected
 
 # Two steps of order 4 have 1 / 15 of the difference to one of twice the size as their error.
 RICHARDSON = 1 / 15

@@ -9,7 +9,7 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.arrays import Array
 from components.fe.body.validity_range import SPIN
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
 
 # Of a step: how far the number of steps may be from a whole one by rounding of stop time and step.
 WHOLE = 1e-6

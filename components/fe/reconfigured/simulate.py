@@ -11,14 +11,14 @@ import numpy as np
 from acausal import AcausalWarning, DeclarationError
 from components.fe.arrays import Array
 from components.fe.body.free_body import check_free
-from components.fe.frame_checks import positive, steps_of, too_fast
-from components.fe.frame_control import controlled
-from components.fe.frame_fixed import fixed
-from components.fe.frame_inputs import Inputs
-from components.fe.frame_load import FrameLoad, breaks_of, check_breaks, sampled
-from components.fe.frame_motion import FrameMotion
-from components.fe.frame_steps import Readings
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.adaptive_step import controlled
+from components.fe.reconfigured.fixed_step import fixed
+from components.fe.reconfigured.free_modes import FreeModes
+from components.fe.reconfigured.load import FrameLoad, breaks_of, check_breaks, sampled
+from components.fe.reconfigured.motion import FrameMotion
+from components.fe.reconfigured.step_inputs import Inputs
+from components.fe.reconfigured.step_limits import positive, steps_of, too_fast
+from components.fe.reconfigured.steps import Readings
 from components.fe.reduction.reduced_body import ReducedBody
 
 Vector = Sequence[float] | Array

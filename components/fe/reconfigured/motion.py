@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal import DeclarationError, March
 from components.fe.arrays import Array
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
 from components.fe.reduction.interface import Interface
 
 RULES = ("modal", "moving")

@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal import DeclarationError, as_expr, cross
 from components.fe.arrays import Array
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
 from components.fe.reduction.node_frames import ON_A_LINE
 from components.rotation_vector import attitude, rate
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from components.fe.arrays import Array
-from components.fe.frame_load import FrameLoad, acting, sampled
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
+from components.fe.reconfigured.load import FrameLoad, acting, sampled
 
 # Of a step: how far inside of it its ends are looked at, far above rounding of the time after 1e5 steps, far below any error.
 EDGE = 1e-9

@@ -14,10 +14,10 @@ from acausal import CompiledModel, DeclarationError, Formulation, Result, simula
 from components.fe.arrays import Array
 from components.fe.body.fe_body import FEBody
 from components.fe.body.modal_properties import with_modes
-from components.fe.frame_checks import WHOLE
-from components.fe.frame_load import FrameLoad, sampled
-from components.fe.frame_result import as_result
-from components.fe.reconfigured import simulate_reconfigured
+from components.fe.reconfigured.load import FrameLoad, sampled
+from components.fe.reconfigured.result import as_result
+from components.fe.reconfigured.simulate import simulate_reconfigured
+from components.fe.reconfigured.step_limits import WHOLE
 from components.fe.reduction.reduced_body import ReducedBody
 
 Loads = Sequence[FrameLoad] | Callable[[Any], Sequence[FrameLoad]]

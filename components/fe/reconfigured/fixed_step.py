@@ -9,11 +9,11 @@ import numpy as np
 
 from acausal import March, SimulationError, march
 from components.fe.arrays import Array
-from components.fe.frame_checks import bounds, diverged
-from components.fe.frame_inputs import Inputs
-from components.fe.frame_motion import FrameMotion
-from components.fe.frame_steps import Loads, Readings, State, corrected, printed
-from components.fe.free_modes import FreeModes
+from components.fe.reconfigured.free_modes import FreeModes
+from components.fe.reconfigured.motion import FrameMotion
+from components.fe.reconfigured.step_inputs import Inputs
+from components.fe.reconfigured.step_limits import bounds, diverged
+from components.fe.reconfigured.steps import Loads, Readings, State, corrected, printed
 
 
 def fixed(

@@ -9,9 +9,9 @@ import numpy as np
 
 from acausal import CompiledModel, Component, DeclarationError, Result, result_of
 from components.fe.arrays import Array
-from components.fe.frame_checks import WHOLE, too_fast
-from components.fe.frame_motion import FrameMotion
-from components.fe.frame_steps import STAGES
+from components.fe.reconfigured.motion import FrameMotion
+from components.fe.reconfigured.step_limits import WHOLE, too_fast
+from components.fe.reconfigured.steps import STAGES
 from components.fe.reduction.interface import Interface
 
 Named = dict[str, tuple[Any, str]]
