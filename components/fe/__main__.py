@@ -15,7 +15,7 @@ from acausal.cli.streams import ended, tolerant
 from acausal.cli.values import pair, value_of
 from acausal.result import shown_name
 from components.fe import ReducedBody, read_mesh, read_sid, reduce_body
-from components.fe.formats.kinds import SID, reader_of
+from components.fe.formats.readers import SID, reader_of
 from components.fe.nodes import rows_of
 
 MODES = 10

@@ -74,8 +74,8 @@ EXTRAS = {
 FILES = {"acausal.result", "acausal.result.files"}
 INSIDE = {
     "components/fe/reduction/archive.py": FILES,
-    "components/fe/formats/foreign.py": FILES,
-    "components/fe/formats/kinds.py": FILES,
+    "components/fe/formats/third_party.py": FILES,
+    "components/fe/formats/readers.py": FILES,
     "components/fe/formats/matrix_market.py": FILES,
     "components/fe/formats/sid.py": FILES,
     "components/fe/formats/text.py": FILES,

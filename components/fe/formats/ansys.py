@@ -11,9 +11,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from components.fe.formats import ansys_process
-from components.fe.formats.foreign import existing, installed
 from components.fe.formats.matrices import Matrices, mirrored, placed
 from components.fe.formats.text import wrong
+from components.fe.formats.third_party import existing, installed
 from components.fe.nodes import Nodes
 
 COORDINATES = (".rst", ".cdb")

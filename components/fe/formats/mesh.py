@@ -13,10 +13,10 @@ import numpy as np
 from components.fe.elements import assemble
 from components.fe.elements.assembly import FLAT
 from components.fe.formats.cdb import read_cdb
-from components.fe.formats.foreign import existing, package, read_by
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices
 from components.fe.formats.text import doubt, text_of, wrong
+from components.fe.formats.third_party import existing, package, read_by
 from components.fe.nodes import Nodes
 
 NASTRAN = (".bdf", ".fem", ".nas")

@@ -14,7 +14,7 @@ import acausal as ac
 from components.fe import FrameLoad, NodalResult, Readings, as_result, reduce_body, simulate_reconfigured
 from components.fe.elements.faces import area_weights
 from tests.components.fe import bodies
-from tests.components.fe.test_reconfigured import PLACES, lopsided, plate, pulse
+from tests.components.fe.reconfigured.test_reconfigured import PLACES, lopsided, plate, pulse
 
 
 def node(place: Any) -> int:

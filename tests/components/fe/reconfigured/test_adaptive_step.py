@@ -12,7 +12,7 @@ import pytest
 import acausal as ac
 from components.fe import FrameLoad, FrameMotion, Readings, as_result, simulate_reconfigured
 from components.fe.reconfigured.step_limits import limit
-from tests.components.fe.test_reconfigured import fastest, plate, pulse
+from tests.components.fe.reconfigured.test_reconfigured import fastest, plate, pulse
 
 JUMP = 0.0213
 

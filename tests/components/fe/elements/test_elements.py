@@ -15,7 +15,7 @@ from components.fe.elements.box import KINDS, mesh
 from components.fe.elements.material import Material
 from components.fe.elements.stress import operator
 
-FILES = Path(__file__).parents[2] / "reference/fe"
+FILES = Path(__file__).parents[3] / "reference/fe"
 ROD = {"E": 1e7, "nu": 0.49, "rho": 0.26 / (0.1 * 0.015 * 0.01)}
 STEEL = {"E": 210e9, "nu": 0.3, "rho": 7850.0}
 # CalculiX 2.20, C3D20, box of steel 0.1 x 0.015 x 0.01 m, 4 x 1 x 1 elements, free: Hz.

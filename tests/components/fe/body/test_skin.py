@@ -17,7 +17,7 @@ from components.fe.elements.faces import FACES
 from components.orientation import axis_rotation
 from models import FEPlate
 from models.fe_plate import plate
-from tests.components.fe.test_recover import rod, swung
+from tests.components.fe.body.test_recovery import rod, swung
 from tests.shared import compiled
 
 SIZE, COUNTS, STEEL = (0.3, 0.2, 0.1), (3, 2, 2), {"E": 2e11, "nu": 0.3, "rho": 7850.0}

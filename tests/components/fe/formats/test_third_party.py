@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from components.fe.formats.foreign import package
+from components.fe.formats.third_party import package
 
 CHANGE = "import numpy\nnumpy.set_printoptions(legacy='1.13', precision=2)\n"
 

@@ -21,7 +21,7 @@ from tests.components.fe import bodies
 from tests.reference import inertial_frames
 from tests.reference.reconfigured_limit import LimitPlate
 
-DATA = Path(__file__).parents[2] / "reference/fe"
+DATA = Path(__file__).parents[3] / "reference/fe"
 PLACES = {"P1": (-0.5, -0.025, 0), "end": (0.5, 0, 0)}
 VARIANTS = ("paper", "corrected")
 

@@ -13,7 +13,7 @@ from components.fe import Nodes, ReducedBody, assemble, average, reduce_body, ri
 from components.fe.elements.box import mesh
 from tests.components.fe import bodies
 from tests.components.fe.bodies import hertz
-from tests.components.fe.test_reduction import linear
+from tests.components.fe.reduction.test_reduction import linear
 from tests.fuzz.settings import effort
 
 SPIDERS = {"plain": list, "average": average, "rigid": rigid}

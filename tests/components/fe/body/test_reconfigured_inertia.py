@@ -16,10 +16,10 @@ from models import FEPlate
 from models.fe_plate import REST
 from models.fe_plate import plate as plate_of
 from tests.components.fe.moving import rod
-from tests.components.fe.test_reconfigured import energy, lopsided, plate
+from tests.components.fe.reconfigured.test_reconfigured import energy, lopsided, plate
 from tests.reference.reconfigured_limit import LimitPlate
 
-MESH = str(Path(__file__).parents[2] / "reference/fe/plate_fe_h25.npz")
+MESH = str(Path(__file__).parents[3] / "reference/fe/plate_fe_h25.npz")
 FORCE, TORQUE = (300.0, -200.0, 500.0), (20.0, -30.0, 10.0)
 
 

@@ -20,7 +20,7 @@ def _nothing_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing(name: str, *rest):
         return None if name.partition(".")[0] in ("meshio", "pyyeti", "ansys") else find(name, *rest)
 
-    monkeypatch.setattr("components.fe.formats.foreign.find_spec", missing)
+    monkeypatch.setattr("components.fe.formats.third_party.find_spec", missing)
     monkeypatch.setitem(sys.modules, "meshio", None)
 
 
