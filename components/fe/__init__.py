@@ -60,7 +60,7 @@ if TYPE_CHECKING:
     from components.fe.reconfigured.simulate import simulate_reconfigured
     from components.fe.reconfigured.steps import Readings
 
-# What models do not use; some of it loads scipy.sparse.
+# Names that models rarely use, imported on first access: some of their modules load scipy.sparse.
 _LATER = {
     "FrameLoad": "reconfigured.load",
     "FrameMotion": "reconfigured.motion",

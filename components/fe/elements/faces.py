@@ -1,4 +1,4 @@
-"""Faces of a mesh that nodes span, and their areas as weights of the nodes."""
+"""Element faces spanned by nodes, and the area weights of these nodes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from components.fe.arrays import Array
 from components.fe.elements.quadratic import EDGES as QUADRATIC
 
-# Faces by the corners of a solid, in any sense of rotation. Nodes on edges follow the corners.
+# Faces by their corners, in either orientation; the last corner of a triangle stands twice. Mid-edge nodes follow the corners.
 HEXAHEDRON = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 TETRAHEDRON = ((0, 1, 2, 2), (0, 1, 3, 3), (1, 2, 3, 3), (2, 0, 3, 3))
 WEDGE = ((0, 1, 2, 2), (3, 4, 5, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
@@ -22,7 +22,7 @@ FACES = {
     "hexahedron": HEXAHEDRON,
     "hexahedron20": HEXAHEDRON,
 }
-# Edges by their two corners, in the order of the nodes on them.
+# Edges by their two corners, in the order of the mid-edge nodes.
 EDGES = {**QUADRATIC, "wedge15": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]}
 # Gauss points of a square of side 1, exact to degree 5 in each direction.
 _LINE = ((0.5 - np.sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + np.sqrt(0.15), 5 / 18))
@@ -31,21 +31,21 @@ _LINE = ((0.5 - np.sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + np.sqrt(0.15), 5 /
 def area_weights(nodes: Array, places: Array, cells: Mapping[str, Array]) -> Array | None:
     """Return the integrals of the nodes' shape functions over the faces that they span, in m2.
 
-    With these weights the mean of the nodes is that of the faces, however fine the mesh is in each place.
+    The mean with these weights is the mean over the faces, independent of local mesh refinement.
 
     Parameters
     ----------
     nodes : array of int, shape (k,)
         Rows of the nodes.
     places : array, shape (N, 3)
-        Of all nodes, in m.
+        Positions of all nodes in m.
     cells : mapping from str to array
-        Elements by meshio's names.
+        Elements by meshio's names of their types.
 
     Returns
     -------
     array, shape (k,), or None
-        None if not every node is on a face between them. Faces inside the body count where its skin holds not all nodes.
+        None if a node is on no face of the set. Interior faces count only if the outer faces do not contain all nodes.
     """
     found = list(_spanned(nodes, len(places), cells))
     for outside in (True, False):
@@ -60,14 +60,16 @@ def area_weights(nodes: Array, places: Array, cells: Mapping[str, Array]) -> Arr
 
 
 def _spanned(nodes: Array, count: int, cells: Mapping[str, Array]) -> Iterator[tuple[Array, Array]]:
-    """Yield faces of 3, 4, 6 and 8 nodes, corners first, all of them among the nodes, and how many elements have each."""
+    """Yield the faces whose nodes are all in the set, corners first, and the number of elements that share each."""
     among = np.zeros(count, dtype=bool)
     among[nodes] = True
     found: dict[int, list[Array]] = {}
     for kind, cell in cells.items():
         members, edges = np.asarray(cell), [set(edge) for edge in EDGES.get(kind, ())]
         first = members.shape[1] - len(edges)
-        edges = edges if among[members[:, first:]].any() else []  # else the corners of faces alone were chosen
+        edges = (
+            edges if among[members[:, first:]].any() else []
+        )  # without mid-edge nodes, the set contains corners only
         for face in FACES.get(kind, ()):
             corners = list(dict.fromkeys(face))
             pairs = zip(corners, corners[1:] + corners[:1], strict=True)
@@ -80,7 +82,7 @@ def _spanned(nodes: Array, count: int, cells: Mapping[str, Array]) -> Iterator[t
 
 
 def _integrals(places: Array) -> Array:
-    """Integrals of the shape functions over faces with nodes at places, shape (faces, nodes, 3)."""
+    """Return the integrals of the shape functions over faces with nodes at `places`, shape (faces, nodes, 3)."""
     count = places.shape[1]
     triangle = count in (3, 6)
     found = np.zeros(places.shape[:2])
@@ -93,9 +95,9 @@ def _integrals(places: Array) -> Array:
 
 
 def _shapes(count: int, x: float, y: float) -> tuple[Array, Array]:
-    """Shape functions of a face at a point of the unit triangle or square, and their slopes, shape (nodes, 2).
+    """Return the shape functions at a point of the unit triangle or square, and their derivatives, shape (nodes, 2).
 
-    Those of the corners lose half of each of those of the nodes on the edges beside them.
+    Each quadratic corner function is the linear one less half of the functions of its two mid-edge nodes.
     """
     if count in (3, 6):
         L, dL = np.array([1 - x - y, x, y]), np.array([[-1.0, -1], [1, 0], [0, 1]])
@@ -109,7 +111,7 @@ def _shapes(count: int, x: float, y: float) -> tuple[Array, Array]:
     if count == 6:
         edge = 4 * L * after[0]
         slopes = 4 * (dL * after[0][:, None] + L[:, None] * after[1])
-    else:  # 4 x (1 - x) between two corners, linear across
+    else:  # 4 x (1 - x) along the edge, linear across it
         along = np.array([x, y, x, y])
         which = np.array([0, 1, 0, 1])
         across, other = np.array([1 - y, x, y, 1 - x]), np.array([-1.0, 1, 1, -1])

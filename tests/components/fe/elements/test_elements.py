@@ -156,13 +156,13 @@ def test_beam_of_the_spin_up(count, worst):
     np.testing.assert_allclose(body.frequencies[plane][:3], exact, rtol=worst)
 
 
-def test_a_mesh_of_two_kinds_and_a_mesh_turned_inside_out():
+def test_a_mesh_of_two_kinds_and_an_inverted_mesh():
     points, cells = mesh((1.0, 1.0, 1.0), (1, 1, 1), "hex8")
-    with pytest.raises(ac.DeclarationError, match=r"the brick of nodes \[.*\] is turned inside out or folded"):
+    with pytest.raises(ac.DeclarationError, match=r"the brick of nodes \[.*\] is inverted"):
         assemble(points, {"hexahedron": cells["hexahedron"][:, [4, 5, 6, 7, 0, 1, 2, 3]]}, **STEEL)
     points, cells = mesh((1.0, 1.0, 1.0), (1, 1, 1), "tet10")
     order = [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]
-    with pytest.raises(ac.DeclarationError, match=r"the tetra10 of nodes \[.*\] is turned inside out or folded"):
+    with pytest.raises(ac.DeclarationError, match=r"the tetra10 of nodes \[.*\] is inverted"):
         assemble(points, {"tetra10": cells["tetra10"][:, order]}, **STEEL)
     flat = {"triangle6": np.zeros((2, 6), dtype=int), "vertex": np.zeros((1, 1), dtype=int)}
     M, *_ = assemble(points, {**cells, **flat}, **STEEL)
@@ -174,12 +174,12 @@ def test_a_mesh_of_two_kinds_and_a_mesh_turned_inside_out():
     [
         ({"size": (1, 1)}, "three positive lengths"),
         ({"size": (1, 0, 1)}, "three positive lengths"),
-        ({"counts": (1, 1.5, 1)}, "three whole numbers"),
-        ({"counts": (0, 1, 1)}, "three whole numbers"),
+        ({"counts": (1, 1.5, 1)}, "three positive integers"),
+        ({"counts": (0, 1, 1)}, "three positive integers"),
         ({"element": "hex27"}, "hex8, hex20, tet10, not 'hex27'"),
-        ({"E": 0}, "E of a solid is positive"),
-        ({"rho": float("nan")}, "rho of a solid is positive"),
-        ({"nu": 0.5}, "below 0.5"),
+        ({"E": 0}, "E must be positive"),
+        ({"rho": float("nan")}, "rho must be positive"),
+        ({"nu": 0.5}, "between -1 and 0.5"),
     ],
 )
 def test_boxes_that_cannot_be(change, message):
@@ -190,10 +190,13 @@ def test_boxes_that_cannot_be(change, message):
 @pytest.mark.parametrize(
     ("cells", "message"),
     [
-        ({"tetra": [[0, 1, 2, 3]]}, r"the tetra of nodes \[0, 1, 2, 3\] is turned inside out or folded"),
-        ({"wedge": [[0, 1, 2, 3]]}, "kind 'wedge' are not known, only hexahedron, hexahedron20, tetra10, tetra"),
-        ({"hexahedron": [[0, 1, 2, 3]]}, "8 whole numbers"),
-        ({"hexahedron": [[0, 1, 2, 3, 4, 5, 6, 9]]}, "none of 0 to 7"),
+        ({"tetra": [[0, 1, 2, 3]]}, r"the tetra of nodes \[0, 1, 2, 3\] is inverted"),
+        (
+            {"wedge": [[0, 1, 2, 3]]},
+            "unknown element type 'wedge'; known types are hexahedron, hexahedron20, tetra10, tetra",
+        ),
+        ({"hexahedron": [[0, 1, 2, 3]]}, "8 integer node indices"),
+        ({"hexahedron": [[0, 1, 2, 3, 4, 5, 6, 9]]}, "outside 0 to 7"),
         ({}, "no solid elements"),
         ({"triangle": [[0, 1, 2]]}, "no solid elements"),
     ],
@@ -220,11 +223,11 @@ def test_two_elements_with_an_edge_but_not_the_node_on_it():
     shared = np.intersect1d(*torn)
     middle = next(k for k in shared if k in torn[1][8:])
     torn[1][torn[1] == middle] = len(points)
-    with pytest.raises(ac.DeclarationError, match="shares an edge with another, but not the node on it"):
+    with pytest.raises(ac.DeclarationError, match="shares an edge with another element, but not its mid-edge node"):
         assemble(np.vstack([points, points[middle]]), {"hexahedron20": torn}, **STEEL)
 
 
 def test_nodes_of_no_element_are_named():
     points, cells = mesh((1.0, 1.0, 1.0), (1, 1, 1), "hex8")
-    with pytest.raises(ac.DeclarationError, match=r"1 nodes belong to no solid element, the first of them \[8\]"):
+    with pytest.raises(ac.DeclarationError, match=r"1 nodes belong to no solid element, the first are \[8\]"):
         assemble(np.vstack([points, [0, 0, 5]]), cells, **STEEL)

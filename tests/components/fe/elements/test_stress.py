@@ -71,7 +71,8 @@ def test_energy() -> None:
 def test_other_elements() -> None:
     points, cells = mesh(SIZE, COUNTS, "hex8")
     with pytest.raises(
-        DeclarationError, match="stresses are known of elements hexahedron, hexahedron20, tetra10, tetra, not of wedge"
+        DeclarationError,
+        match="stresses are implemented for elements hexahedron, hexahedron20, tetra10, tetra, not for wedge",
     ):
         operator("wedge", points, cells["hexahedron"], STEEL)
     nodes = box(SIZE, COUNTS, "hex8", E=1e9, nu=0.3, rho=1e3)[2]

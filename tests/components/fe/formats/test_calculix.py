@@ -133,9 +133,9 @@ def test_held_nodes_are_named(folder: Path) -> None:
 def test_rows_of_numbers(folder: Path) -> None:
     nodes = read_calculix(folder / "c3d20")[2]
     assert rows_of(nodes, [17, 1]) == [16, 0]
-    with pytest.raises(DeclarationError, match="there is no node 99 in the file, whose nodes are 1 to 56"):
+    with pytest.raises(DeclarationError, match="there is no node 99 in the file; its node numbers are 1 to 56"):
         rows_of(nodes, [99])
-    with pytest.raises(DeclarationError, match="only rows"):
+    with pytest.raises(DeclarationError, match="use rows, counted from 0"):
         rows_of(nodes[2:], [3])  # a part of the nodes no longer knows
 
 

@@ -177,11 +177,11 @@ def test_foreign_files(tmp_path):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"K": np.eye(3)}, r"K of a reduced body has shape \(3, 3\) where \(2, 2\)"),
+        ({"K": np.eye(3)}, r"K of a reduced body must have shape \(2, 2\), not \(3, 3\)"),
         ({"modal_first": np.zeros(2)}, "one row for x, y and z"),
         (
             {"second_moment": np.full((3, 3), np.nan)},
-            "second_moment of a reduced body holds numbers that are not finite",
+            "second_moment of a reduced body contains numbers that are not finite",
         ),
         ({"interfaces": [Interface("a", np.zeros(3), np.zeros((3, 2)), np.zeros((3, 2)))] * 2}, "have one name: a, a"),
         (
@@ -197,7 +197,7 @@ def test_bodies_that_cannot_be(body, change, message):
 
 
 def test_interfaces_that_cannot_be():
-    with pytest.raises(ac.DeclarationError, match=r"rotation of interface 'a' has shape \(3, 1\)"):
+    with pytest.raises(ac.DeclarationError, match=r"rotation of interface 'a' must have shape \(3, 2\), not \(3, 1\)"):
         Interface("a", np.zeros(3), np.zeros((3, 2)), np.zeros((3, 1)))
     with pytest.raises(ac.DeclarationError, match="place of interface 'a'"):
         Interface("a", np.zeros(2), np.zeros((3, 2)), np.zeros((3, 2)))
