@@ -12,8 +12,8 @@ from components.fe.elements.quadratic import CORNERS, EDGES
 from components.fe.nodes import Nodes
 
 KINDS = {"hex8": "hexahedron", "hex20": "hexahedron20", "tet10": "tetra10"}
-# Kuhn subdivision of a box into six tetrahedra around its diagonal: paths along the axes, one for each order of the axes.
-# Adjacent boxes share the diagonals of their common faces.
+# Kuhn subdivision of a box into six tetrahedra around its diagonal: paths along the axes, one for each order of the
+# axes. Adjacent boxes share the diagonals of their common faces.
 ORDERS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2))
 
 

@@ -10,7 +10,8 @@ import numpy as np
 from components.fe.arrays import Array
 from components.fe.elements.quadratic import EDGES as QUADRATIC
 
-# Faces by their corners, in either orientation; the last corner of a triangle stands twice. Mid-edge nodes follow the corners.
+# Faces by their corners, in either orientation; the last corner of a triangle stands twice. Mid-edge nodes follow the
+# corners.
 HEXAHEDRON = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 TETRAHEDRON = ((0, 1, 2, 2), (0, 1, 3, 3), (1, 2, 3, 3), (2, 0, 3, 3))
 WEDGE = ((0, 1, 2, 2), (3, 4, 5, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))

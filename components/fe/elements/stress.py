@@ -15,8 +15,8 @@ COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "zx")
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 _CUBE = np.array(list(product((-1.0, 1.0), repeat=3))) / np.sqrt(3)
 _A, _B = (5 + 3 * np.sqrt(5)) / 20, (5 - np.sqrt(5)) / 20
-# Barlow points, where stresses converge as fast as displacements: Gauss points of the stiffness integration or of one order
-# less, in reference coordinates.
+# Barlow points, where stresses converge as fast as displacements: Gauss points of the stiffness integration or of one
+# order less, in reference coordinates.
 POINTS = {
     "hexahedron": _CUBE,
     "hexahedron20": (1 + _CUBE) / 2,
@@ -63,7 +63,7 @@ def operator(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
 
 
 def to_nodes(kind: str) -> np.ndarray:
-    """Return the extrapolation from `POINTS` to the nodes of an element, linear in each coordinate: shape (nodes, points)."""
+    """Return the extrapolation from `POINTS` to the nodes, linear in each coordinate, shape (nodes, points)."""
     if kind == "tetra":
         return np.ones((4, 1))
     places = brick.CORNERS if kind == "hexahedron" else _places(kind)

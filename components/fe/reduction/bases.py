@@ -1,4 +1,4 @@
-"""Bases of a body's deformation: held modes, free modes, and Craig and Bampton's."""
+"""Modal bases: fixed-interface (held) modes, free modes and Craig-Bampton bases."""
 
 from __future__ import annotations
 
@@ -15,23 +15,24 @@ from components.fe.reduction.reference_frame import Reference, reference, spread
 from components.fe.reduction.solid import Solid
 
 BASES = ("held", "free", "craig-bampton")
-# Rows are dependent that differ from a combination of the others by less, where each has the length 1.
+# Distance of a unit row from the span of the others below which it counts as linearly dependent: above round-off of the
+# projection (1e-14), below any intended difference of interface positions.
 DEPENDENT = 1e-8
-# Modes of a first attempt to reach a frequency.
+# Modes computed in the first attempt to reach a frequency bound; each further attempt doubles them.
 BATCH = 16
 
 
 def basis(
     name: str, hold: Any, frames: list[Frame], body: Solid, count: int | None, limit: float
 ) -> tuple[Array, Array, Reference]:
-    """Modes at nodes, mass-orthonormal, without any motion of the reference frame.
+    """Compute nodal modes, mass-orthonormal and without motion of the reference frame.
 
     Parameters
     ----------
     name : str
         "held", "free" or "craig-bampton".
     hold : Any
-        What the reference frame is, see `reduce_body`.
+        Definition of the reference frame, see `reduce_body`.
     frames : list of Frame
         Interfaces.
     body : Solid
@@ -51,10 +52,10 @@ def basis(
         The reference frame.
     """
     if name not in BASES:
-        raise DeclarationError(f"basis is one of {', '.join(map(repr, BASES))}, not {name!r}")
+        raise DeclarationError(f"basis must be one of {', '.join(map(repr, BASES))}, not {name!r}")
     stiff = [frame for frame in frames if frame.kind == "rigid"]
     if name == "free":
-        # Free modes do not know the reference frame: the nodes of a frame that it holds are at rest on average.
+        # Free modes cannot satisfy nodal constraints: the reference frame is fixed to the average of its nodes.
         frames = [replace(frame, kind="average") for frame in frames]
     held = reference(hold, frames, body)
     system = System(body, held.held, stiff)
@@ -69,7 +70,7 @@ def basis(
 
 
 def _wanted(flexibility: Flexibility, count: int | None, limit: float) -> tuple[Array, Array]:
-    """So many modes, or all below a frequency and some more."""
+    """Compute `count` modes, or all modes below the frequency `limit`."""
     if count is not None:
         return lowest(flexibility, count)
     wanted = BATCH
@@ -82,11 +83,11 @@ def _wanted(flexibility: Flexibility, count: int | None, limit: float) -> tuple[
 
 
 def _free(system: System, rows: Array, held: Reference, count: int | None, limit: float) -> tuple[Array, Array]:
-    """Modes of the free body, less the motion of the reference frame in each."""
+    """Compute the modes of the free body relative to the reference frame."""
     if len(held.held) or len(rows) != 6:
         raise DeclarationError(
-            f"{len(held.held) + len(rows)} conditions hold the reference frame, and free modes can meet six: hold a frame, "
-            'three nodes (i, j, k) or "mean-axis"'
+            f"hold imposes {len(held.held) + len(rows)} constraints on the reference frame, but free modes can satisfy only six: "
+            'hold a frame, three nodes (i, j, k) or "mean-axis"'
         )
     means = (system.mass @ system.rigid).T
     shapes, _ = _wanted(Flexibility(system, means), count, limit)
@@ -97,10 +98,10 @@ def _free(system: System, rows: Array, held: Reference, count: int | None, limit
 def _craig_bampton(
     system: System, rows: Array, held: Reference, frames: list[Frame], count: int | None, limit: float
 ) -> tuple[Array, Array]:
-    """Modes with all interfaces held, and static ones of a unit motion of each freedom of an interface.
+    """Compute the fixed-interface modes and the static modes of unit motions of the interfaces.
 
-    Where the reference frame is none of the interfaces, it says no more than what is called a rigid motion: the rigid
-    motions of all interfaces together are no deformation.
+    If the reference frame is not an interface, it only defines which motion is rigid; the common rigid motions of all
+    interfaces are removed from the static modes.
     """
     own = [spread(frame, system.body) for frame in frames if frame.name not in held.names]
     faces = (system.expand.T @ np.vstack([*own, np.zeros((0, system.expand.shape[0]))]).T).T
@@ -108,7 +109,7 @@ def _craig_bampton(
     fixed = np.zeros((0, rows.shape[1])) if loose else _independent(rows)
     faces = _independent(faces, fixed)
     if loose:
-        # Rigid motions that the interfaces leave free are taken out as the reference frame sees them.
+        # Remove the rigid motions that the interfaces leave free, relative to the reference frame.
         _, values, directions = np.linalg.svd(np.vstack([_unit(faces) @ system.rigid, np.zeros((6, 6))]))
         open_ = directions[values <= DEPENDENT * max(values.max(), np.finfo(float).tiny)]
         fixed = open_ @ np.linalg.solve(rows @ system.rigid, rows)
@@ -121,8 +122,8 @@ def _craig_bampton(
     static = flexibility.static(values) if values.shape[1] else np.zeros((system.stiffness.shape[0], 0))
     if count is not None and count < static.shape[1]:
         raise DeclarationError(
-            f"a Craig-Bampton basis of these frames has {static.shape[1]} static modes, more than the {count} that are asked "
-            f"for: modes={static.shape[1]} or more"
+            f"the Craig-Bampton basis of these frames has {static.shape[1]} static modes, but modes={count}; "
+            f"use modes={static.shape[1]} or more"
         )
     wanted = None if count is None else count - static.shape[1]
     shapes, _ = _wanted(flexibility, wanted, limit)
@@ -136,7 +137,7 @@ def _unit(rows: Array) -> Array:
 
 
 def _independent(rows: Array, known: Array | None = None) -> Array:
-    """The rows that depend neither on those before them nor on the known ones."""
+    """Return the rows that are linearly independent of the known rows and of the rows before them (Gram-Schmidt)."""
     basis: list[Array] = []
     kept = []
     nothing = np.finfo(float).eps * np.linalg.norm(rows, axis=1).max(initial=0.0)

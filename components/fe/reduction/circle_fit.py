@@ -1,4 +1,4 @@
-"""The circle or cylinder on which nodes lie."""
+"""Fit of a circle or cylinder through nodes."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 
 from components.fe.arrays import Array
 
-# Of the radius, how far nodes may be from the circle: nodes in the middle of straight edges, twelve of them around it, are
-# 1 - cos(pi / 12) inside.
+# Radial deviation of nodes, relative to the radius: mid-edge nodes of twelve straight edges are 1 - cos(pi / 12) =
+# 0.034 inside.
 ROUND = 0.035
-# Rays from the centre on which nodes lie: any three points are on a circle, as are the corners of a rectangle.
+# Distinct angles of nodes: three points and the corners of a rectangle always lie on a circle.
 RAYS = 6
-# Less of a circle than a quarter is a bent face, and its centre nothing that is turned about.
+# Angle in rad that nodes must cover: less than a quarter of a circle is a curved face, not a bearing.
 ARC = np.pi / 2
-# Directions nearer than this, in rad, are one ray: coordinates come from files with six or seven digits.
+# Angles in rad that count as equal: file coordinates have six or seven digits.
 ALIKE = 1e-3
-FLAT = 1e-4  # of their extent, how far nodes are from a plane
-MOST = 400  # nodes that are looked at
+FLAT = 1e-4  # distance of nodes from a plane, relative to their extent: file coordinates have six or seven digits
+MOST = 400  # nodes used in the fit
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Circle:
     Parameters
     ----------
     centre, axis : array, shape (3,)
-        Place in m, direction of length 1.
+        Position in m, and unit vector.
     radius : float
         In m.
     """
@@ -39,12 +39,12 @@ class Circle:
     radius: float
 
     def nearest(self, place: Array) -> Array:
-        """Return the point of the axis nearest to a place."""
+        """Return the point of the axis nearest to a position."""
         return self.centre + self.axis * (self.axis @ (place - self.centre))
 
 
 def circle_of(places: Array) -> Circle | None:
-    """Return the circle or cylinder on which places lie, shape (k, 3); None if they lie on none."""
+    """Return the circle or cylinder through positions, shape (k, 3), or None."""
     if len(places) < RAYS:
         return None
     some = places[:: -(-len(places) // MOST)]
@@ -67,7 +67,7 @@ def circle_of(places: Array) -> Circle | None:
 
 
 def _axes(arms: Array, starts: Array) -> list[Array]:
-    """Directions of cylinders that fit, each sought from one of the starts."""
+    """Fit the cylinder axis from each start direction."""
     from scipy.optimize import least_squares
 
     found = []
@@ -87,20 +87,20 @@ def _axes(arms: Array, starts: Array) -> list[Array]:
 
 
 def _off(arms: Array, axis: Array) -> float:
-    """Largest distance of points from the circle that fits them best across an axis, by its radius."""
+    """Return the largest radial deviation from the circle fitted across an axis, relative to its radius."""
     centre, radius, flat = _fitted(arms, axis)
     return float(np.abs(np.linalg.norm(flat - centre, axis=1) / radius - 1).max()) if radius else np.inf
 
 
 def _fitted(arms: Array, axis: Array) -> tuple[Array, float, Array]:
-    """Centre and radius of the circle |x|^2 = 2 c . x + k across an axis, and the points in its plane (Kasa 1976)."""
+    """Fit |x|^2 = 2 c . x + k across an axis (Kasa 1976); return centre, radius and the points in the plane."""
     flat = arms @ _plane(axis).T
     (x, y, rest), *_ = np.linalg.lstsq(np.c_[2 * flat, np.ones(len(flat))], (flat**2).sum(axis=1), rcond=None)
     return np.array([x, y]), float(np.sqrt(max(rest + x * x + y * y, 0.0))), flat
 
 
 def _plane(axis: Array) -> Array:
-    """Two directions across an axis, shape (2, 3)."""
+    """Return two unit vectors normal to an axis, shape (2, 3)."""
     first = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
     first = first / np.linalg.norm(first)
     return np.stack([first, np.cross(axis, first)])

@@ -1,4 +1,4 @@
-"""Integrals over the mass of a body and its modes, and their older names."""
+"""Inertia invariants: mass integrals of node positions and modes."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 
 from components.fe.arrays import Array
 
-# Part of a mode that is rounding. Modes of a symmetric body show it: what ought to be 0 stays below 1e-9 in a plate of
-# aspect 100 and 1e-8 in a rod of aspect 200, and what is none begins at 1e-7.
+# Entries set to 0, relative to the size of their mode. In symmetric bodies, entries that vanish by symmetry are below
+# 1e-9 (plate of aspect ratio 100) and 1e-8 (rod of aspect ratio 200), the others above 1e-7.
 ROUNDING = 1e-8
 
 
 @dataclass(frozen=True)
 class UsualInvariants:
-    """The nine inertia invariants that multibody programs name I1 to I9, with v~ the matrix of v x.
+    """The nine inertia invariants I1 to I9 of multibody programs; v~ is the skew-symmetric matrix of v.
 
     Parameters
     ----------
@@ -53,12 +53,12 @@ class UsualInvariants:
 
 @dataclass(frozen=True)
 class Invariants:
-    """Integrals of the places r0 and the modes phi_b over the mass of a body; see `ReducedBody`.
+    """Mass integrals of the positions r0 and the modes phi_b; see `ReducedBody`.
 
     Parameters
     ----------
     mass, first_moment, second_moment, modal_first, modal_second, modal_products
-        As those of `ReducedBody`.
+        See `ReducedBody`.
     """
 
     mass: float
@@ -70,25 +70,23 @@ class Invariants:
 
 
 def invariants(mass: Any, places: Array, modes: Array) -> Invariants:
-    """Integrate places and modes over the mass.
+    """Compute the mass integrals of positions and modes.
 
-    The mass matrix is the Kronecker product of `mass` with the unit matrix of 3: with the shape functions N of the
-    elements, mass_ij is the integral of N_i N_j dm, so a product of two fields that the elements can hold is integrated
-    by their values at nodes, a' mass b.
+    The mass matrix is the Kronecker product of `mass` with the 3 x 3 unit matrix. With the shape functions N_i of the
+    elements, mass_ij is the integral of N_i N_j dm, so a' mass b is the exact integral of two interpolated fields.
 
-    Rounding is cut entry by entry, in the size of the two fields that an entry joins: |a' mass b| is at most
-    sqrt(a' mass a) sqrt(b' mass b), so the thickness of a plate counts by itself beside its length. A component of a mode
-    has the rounding of the whole mode: with the small part along x of a mode that bends along z, the rounding in another
-    mode is as large as with its large part.
+    Round-off is set to 0 entry by entry, relative to the two fields of an entry: |a' mass b| is at most
+    sqrt(a' mass a) sqrt(b' mass b), so the thickness of a plate is judged separately from its length. The round-off of
+    each component of a mode scales with the whole mode.
 
     Parameters
     ----------
     mass : sparse matrix, shape (N, N)
         Mass of each pair of nodes in kg.
     places : array, shape (N, 3)
-        In m, relative to the origin of the reference frame.
+        Node positions in m, relative to the origin of the reference frame.
     modes : array, shape (N, 3, n)
-        Displacements.
+        Displacements of the modes.
     """
     n = modes.shape[2]
     fields = np.concatenate(
@@ -97,7 +95,7 @@ def invariants(mass: Any, places: Array, modes: Array) -> Invariants:
     products = fields.T @ (mass @ fields)
     products = (products + products.T) / 2
     size = np.sqrt(np.maximum(np.diag(products), 0.0))
-    # A component of a mode that is rounding beside the mode itself.
+    # Components of a mode at round-off level of the mode.
     parts = size[4:].reshape(n, 3)
     parts[parts <= ROUNDING * np.linalg.norm(parts, axis=1, keepdims=True)] = 0.0
     whole = np.concatenate([size[:4], np.repeat(np.linalg.norm(parts, axis=1), 3)])
@@ -106,7 +104,7 @@ def invariants(mass: Any, places: Array, modes: Array) -> Invariants:
     nothing = size == 0
     products[nothing], products[:, nothing] = 0.0, 0.0
     second = products[1:4, 4:].reshape(3, n, 3).transpose(1, 0, 2)
-    # The same of the integral of r0 x phi_b, a difference of two.
+    # The integral of r0 x phi_b is a difference of two entries: set it to 0 if the difference is round-off.
     limit = bound[1:4, 4:].reshape(3, n, 3).transpose(1, 0, 2)
     turned = second.transpose(0, 2, 1)
     equal = np.abs(second - turned) <= limit + limit.transpose(0, 2, 1)
@@ -122,9 +120,9 @@ def invariants(mass: Any, places: Array, modes: Array) -> Invariants:
 
 
 def usual(body: Any) -> UsualInvariants:
-    """I1 to I9 of a `ReducedBody` (or of `Invariants`).
+    """Return I1 to I9 of a `ReducedBody` or `Invariants`.
 
-    u~ v~ = v u' - (u . v) E, so A_b and B_bc hold all of them.
+    They all follow from A_b and B_bc, because u~ v~ = v u' - (u . v) E.
     """
     P, A, B, E = body.second_moment, body.modal_second, body.modal_products, np.eye(3)
     along = np.trace(B, axis1=2, axis2=3)
@@ -142,6 +140,6 @@ def usual(body: Any) -> UsualInvariants:
 
 
 def axial(products: Array) -> Array:
-    """Integrals of u x v from those of u v', shape (..., 3, 3)."""
+    """Return the integrals of u x v from those of u v', shape (..., 3, 3)."""
     P = products
     return np.stack([P[..., 1, 2] - P[..., 2, 1], P[..., 2, 0] - P[..., 0, 2], P[..., 0, 1] - P[..., 1, 0]], axis=-1)

@@ -1,4 +1,4 @@
-"""What may be wrong with matrices of a body: one clear message each."""
+"""Checks of the mass and stiffness matrices and the nodes of a free body."""
 
 from __future__ import annotations
 
@@ -12,17 +12,20 @@ from components.fe.nodes import named
 from components.fe.reduction.solid import Solid, rigid_motions
 from components.fe.user_warning import warn
 
-# Of the larger entries that an entry stands beside. Files have 13 digits and more.
+# Asymmetry relative to the largest entry: files have 13 digits or more.
 SYMMETRY = 1e-8
-# Blocks of the mass matrix that are so far from multiples of the unit matrix falsify the equations by as much.
+# Deviation of a mass block from a multiple of the unit matrix, relative to the masses of its two nodes: an error of the
+# same relative size in the equations.
 BLOCKS = 1e-7
-# Rigid motions: force of a node by the forces of its neighbours. Turns know coordinates, which have six or seven digits,
-# of a place that may lie a hundred elements away.
+# Force on a node in a rigid translation and rotation, relative to the forces of its neighbours. Rotations suffer from
+# the six or seven digits of coordinates, amplified by a lever of up to a hundred elements.
 MOVE, TURN = 1e-7, 1e-4
-# A negative eigenvalue, by the largest; one nearer to 0 shows as a negative mode.
+# Negative eigenvalue relative to the largest one of the scaled matrix: above round-off of the Lanczos steps. Smaller
+# ones appear as negative eigenvalues of the modes.
 INDEFINITE = 1e-9
-LANCZOS = 80
-# Solids from foam to osmium, and thin shells by the space that they enclose, in kg/m3; from gel to diamond, in m/s.
+LANCZOS = 80  # steps
+# Plausible density in kg/m3: from foam to osmium, thin shells by their enclosed volume. Plausible speed of sound in
+# m/s: from gel to diamond. Units that are off by 1e3 leave these ranges.
 DENSITY = (10.0, 3e4)
 SPEED = (20.0, 3e4)
 
@@ -35,19 +38,19 @@ def checked_solid(M: Any, K: Any, nodes: Any) -> Solid:
     M, K : sparse matrix or array, shape (3 N, 3 N)
         Mass in kg, stiffness in N/m; equations in the order x, y, z of each node.
     nodes : array_like, shape (N, 3)
-        Places in m.
+        Positions in m.
 
     Returns
     -------
     Solid
-        The body, its matrices made symmetric to the last digit.
+        The body, with exactly symmetric matrices.
 
     Raises
     ------
     DeclarationError
-        If shapes do not fit, entries are not finite, a matrix is not symmetric or is indefinite beyond rounding, rotations
-        of nodes are among the equations, the blocks of M are no multiples of the unit matrix, or K does not belong to
-        one free body with six rigid motions.
+        If shapes are inconsistent, entries are not finite, a matrix is asymmetric or indefinite beyond round-off, nodes
+        have rotational degrees of freedom, a block of M is not a multiple of the unit matrix, or K is not the stiffness
+        of one free body with six rigid-body motions.
     """
     places = _places(nodes)
     M, K = (_matrix(A, name, len(places)) for A, name in ((M, "mass"), (K, "stiffness")))
@@ -58,15 +61,15 @@ def checked_solid(M: Any, K: Any, nodes: Any) -> Solid:
     soft = np.flatnonzero((empty & (heavy > 0)) | (~empty & (stiff == 0).any(axis=1)))
     if len(soft):
         raise DeclarationError(
-            f"node {named(nodes, soft[:1])} has mass or neighbours, but no stiffness in every direction"
+            f"node {named(nodes, soft[:1])} has mass or neighbours, but lacks stiffness in some direction"
         )
     _one_piece(K, nodes, places, empty)
     for A, name in ((K, "stiffness"), (mass, "mass")):
         if _lowest_share(A) < -INDEFINITE:
-            raise DeclarationError(f"the {name} matrix is indefinite: it has a negative eigenvalue beyond rounding")
+            raise DeclarationError(f"the {name} matrix is indefinite: it has a negative eigenvalue beyond round-off")
     made = Solid(mass, K, places, empty)
     if made.total <= 0:
-        raise DeclarationError(f"the mass matrix holds a mass of {made.total:g} kg")
+        raise DeclarationError(f"the total mass is {made.total:g} kg; it must be positive")
     _plausible(made)
     return made
 
@@ -74,9 +77,11 @@ def checked_solid(M: Any, K: Any, nodes: Any) -> Solid:
 def _places(nodes: Any) -> Array:
     places = np.asarray(nodes)
     if places.ndim != 2 or places.shape[1] != 3 or len(places) < 3 or not np.issubdtype(places.dtype, np.number):
-        raise DeclarationError(f"nodes are at least 3 places in m, shape (N, 3), not of shape {places.shape}")
+        raise DeclarationError(f"nodes must be an array of at least 3 positions in m, shape (N, 3), not {places.shape}")
     if not np.isfinite(places).all():
-        raise DeclarationError(f"the place of node {np.flatnonzero(~np.isfinite(places).all(axis=1))[0]} is not finite")
+        raise DeclarationError(
+            f"the position of node {np.flatnonzero(~np.isfinite(places).all(axis=1))[0]} is not finite"
+        )
     return places.astype(float)
 
 
@@ -86,24 +91,24 @@ def _matrix(matrix: Any, name: str, count: int) -> Any:
     given = matrix if issparse(matrix) else np.asarray(matrix)
     if given.shape == (6 * count, 6 * count):
         raise DeclarationError(
-            f"the {name} matrix has 6 equations for each of the {count} nodes: rotations of nodes (beams, shells) cannot "
-            "be taken over; export a body of solid elements"
+            f"the {name} matrix has 6 equations for each of the {count} nodes: rotational degrees of freedom (beams, shells) "
+            "are not supported; export a body of solid elements"
         )
     if given.shape != (3 * count, 3 * count):
         raise DeclarationError(
             f"the {name} matrix has shape {given.shape}, but {count} nodes need {3 * count} equations: x, y, z of each node"
         )
     if np.iscomplexobj(given) or not np.issubdtype(given.dtype, np.number):
-        raise DeclarationError(f"the {name} matrix holds {given.dtype}, not real numbers")
+        raise DeclarationError(f"the {name} matrix must be real, not {given.dtype}")
     A = csr_array(given, dtype=float)
     if not np.isfinite(A.data).all():
-        raise DeclarationError(f"the {name} matrix holds numbers that are not finite")
+        raise DeclarationError(f"the {name} matrix contains numbers that are not finite")
     if not A.nnz:
         raise DeclarationError(f"the {name} matrix is empty")
     skew = abs(A - A.T).tocoo()
     if skew.nnz and skew.data.max() > SYMMETRY * abs(A.data).max():
         k = int(np.argmax(skew.data))
-        triangle = "; is it one triangle of a symmetric matrix?" if _triangular(A) else ""
+        triangle = "; it may be one triangle of a symmetric matrix" if _triangular(A) else ""
         raise DeclarationError(
             f"the {name} matrix is not symmetric in row {skew.row[k]}, column {skew.col[k]}{triangle}"
         )
@@ -118,7 +123,7 @@ def _triangular(A: Any) -> bool:
 
 
 def _masses(M: Any) -> Any:
-    """One mass for each pair of nodes."""
+    """Reduce the mass matrix to one scalar for each pair of nodes."""
     parts = [[M[a::3, b::3] for b in range(3)] for a in range(3)]
     mean = (parts[0][0] + parts[1][1] + parts[2][2]) / 3
     heavy = np.sqrt(np.maximum(mean.diagonal(), 0.0))
@@ -130,15 +135,15 @@ def _masses(M: Any) -> Any:
             if wrong.any():
                 k = int(np.flatnonzero(wrong)[0])
                 raise DeclarationError(
-                    f"the mass matrix couples nodes {rest.row[k]} and {rest.col[k]} by a block that is no multiple of the unit "
-                    "matrix: mass that differs by direction, rotations of nodes, or another order of the equations"
+                    f"the block of the mass matrix for nodes {rest.row[k]} and {rest.col[k]} is not a multiple of the unit "
+                    "matrix: the mass depends on the direction, nodes have rotations, or equations are in another order"
                 )
     mean.eliminate_zeros()
     return mean
 
 
 def _rigid(K: Any, nodes: Any, places: Array, empty: Array) -> None:
-    """K must leave the six rigid motions free."""
+    """Check that K exerts no force in the six rigid-body motions."""
     entries = K.tocoo()
     row, column = entries.row // 3, entries.col // 3
     size = np.abs(places - places.mean(axis=0)).max()
@@ -148,7 +153,7 @@ def _rigid(K: Any, nodes: Any, places: Array, empty: Array) -> None:
     turns = np.bincount(entries.row, forces * arms, K.shape[0])
     motions = rigid_motions(places, places.mean(axis=0), size)
     done = (K @ motions.reshape(-1, 6)).reshape(-1, 3, 6)
-    # About the node itself: a turn about the origin less the translation of the node.
+    # Rotation about the node itself: about the centre, less the translation of the node.
     shift = motions[:, :, 3:]
     done[:, :, 3:] -= np.einsum("nda,nat->ndt", done[:, :, :3], shift)
     move, turn = np.abs(done[:, :, :3]).max(axis=2).ravel(), np.abs(done[:, :, 3:]).max(axis=2).ravel()
@@ -158,12 +163,12 @@ def _rigid(K: Any, nodes: Any, places: Array, empty: Array) -> None:
     missing = np.flatnonzero(empty)
     if len(missing):
         raise DeclarationError(
-            f"rigid motions are missing: equations of nodes {named(nodes, missing)} are not in the matrices, as if "
-            "they were held; write the matrices of the free body"
+            f"rigid-body motions are missing: the matrices lack the equations of nodes {named(nodes, missing)}, as if these "
+            "were fixed; export the matrices of the free body"
         )
     raise DeclarationError(
-        f"rigid motions are missing: the stiffness matrix resists them at nodes {named(nodes, np.flatnonzero(bad))}; is "
-        "something held or grounded there, or are nodes and equations in different orders?"
+        f"rigid-body motions are missing: the stiffness matrix resists them at nodes {named(nodes, np.flatnonzero(bad))}; "
+        "remove supports and springs to ground there, or bring nodes and equations into the same order"
     )
 
 
@@ -179,16 +184,18 @@ def _one_piece(K: Any, nodes: Any, places: Array, empty: Array) -> None:
     if len(kinds) > 1:
         _, counts = np.unique(np.round(places[used] / (1e-9 * np.abs(places).max())), axis=0, return_counts=True)
         double = (
-            f"; {(counts > 1).sum()} places hold two nodes, which may have to be merged" if (counts > 1).any() else ""
+            f"; {(counts > 1).sum()} positions have two nodes, which may have to be merged"
+            if (counts > 1).any()
+            else ""
         )
         raise DeclarationError(
-            f"more than six rigid motions: the body is {len(kinds)} pieces that nothing joins, with nodes "
+            f"more than six rigid-body motions: the body consists of {len(kinds)} disconnected pieces, with nodes "
             f"{named(nodes, used[first])}{double}"
         )
 
 
 def _lowest_share(A: Any) -> float:
-    """Lowest eigenvalue that some steps of Lanczos find, by the largest, of a matrix scaled to a unit diagonal."""
+    """Return the lowest Lanczos eigenvalue relative to the largest, of the matrix scaled to a unit diagonal."""
     diagonal = A.diagonal()
     if (diagonal < 0).any() or abs(A[np.flatnonzero(diagonal == 0)]).sum() > 0:
         return -1.0
@@ -208,23 +215,23 @@ def _lowest_share(A: Any) -> float:
 
 
 def _plausible(body: Solid) -> None:
-    """Warn where units are off by 1e3: no solid is so light or heavy, or lets sound pass so slowly or fast."""
+    """Warn if density or speed of sound are implausible, as with units that are off by 1e3."""
     arms = body.nodes - body.centre
-    # Of the box with these second moments.
+    # Volume of the homogeneous box with the same second moments.
     volume = np.sqrt(max(np.linalg.det(12 / body.total * arms.T @ (body.mass @ arms)), 0.0))
     density = body.total / volume if volume else np.inf
-    # A uniform stretch has the energy of the modulus of pressure waves, in a body of any shape.
+    # The energy of a uniform stretch gives the P-wave modulus of a body of any shape.
     stretch = np.zeros((len(arms), 3, 3))
     stretch[:, range(3), range(3)] = arms
     flat = stretch.reshape(-1, 3)
     speed = float(np.sqrt(max(np.mean(np.sum(flat * (body.stiffness @ flat), axis=0)), 0.0) / body.total))
-    said = []
+    implausible = []
     if not DENSITY[0] <= density <= DENSITY[1]:
-        said.append(f"a density of about {density:.2g} kg/m3")
+        implausible.append(f"a density of about {density:.2g} kg/m3")
     if not SPEED[0] <= speed <= SPEED[1]:
-        said.append(f"a speed of sound of about {speed:.2g} m/s")
-    if said:
+        implausible.append(f"a speed of sound of about {speed:.2g} m/s")
+    if implausible:
         warn(
-            f"the body has {' and '.join(said)}, as no solid: are nodes in m, masses in kg, and stiffness in N/m? "
-            "The readers take length= and mass=, as length=1e-3, mass=1e3 for mm, N and Mg."
+            f"the body has {' and '.join(implausible)}, unlike any solid: nodes must be in m, masses in kg, stiffness in N/m. "
+            "Do this: pass the units to the reader, such as length=1e-3, mass=1e3 for mm, N and Mg."
         )

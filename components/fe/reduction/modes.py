@@ -1,4 +1,4 @@
-"""Modes of a body under conditions: one factorisation of its stiffness, and inverse iteration with it."""
+"""Modes of a constrained body, by inverse iteration with one factorisation of its stiffness."""
 
 from __future__ import annotations
 
@@ -14,19 +14,21 @@ from components.fe.reduction.node_frames import Frame
 from components.fe.reduction.reference_frame import null_space
 from components.fe.reduction.solid import Solid
 
-# Freedoms up to which, or share of modes from which on, all modes are computed at once.
+# All modes are computed by a dense solver up to this number of degrees of freedom, or from this share of modes on:
+# sparse iteration saves no time there.
 DENSE, SHARE = 600, 0.25
-# A motion has no stiffness that has so many times what rounding leaves of the rigid ones, or less than the last digit of
-# the largest eigenvalue. (Pieces on a hinge: 0.01 to 0.2 of that digit; a rod of aspect 2000: 20.)
-NOTHING = 100.0
-# Frequencies that differ by less are one, whose modes are any turned among themselves.
+# Largest eigenvalue of a mechanism, relative to the round-off in the eigenvalues of rigid-body motions. One below the
+# last digit of the largest eigenvalue counts as 0, too: hinged pieces have 0.01 to 0.2 of that digit, a rod of aspect
+# ratio 2000 has 20.
+ZERO_STIFFNESS = 100.0
+# Relative difference of frequencies that count as equal: their modes are any basis of a common subspace.
 EQUAL = 1e-7
-# Modes beyond those asked for, so that a pair of equal frequencies is complete before it is cut.
+# Modes computed in excess, so that a pair of equal frequencies is complete before it is truncated.
 MORE = 2
 
 
 class System:
-    """Freedoms v of a body of which some are held, and some nodes move as rigid frames: u = expand @ v.
+    """Degrees of freedom v of a body with fixed equations and rigid frames: u = expand @ v.
 
     Parameters
     ----------
@@ -35,12 +37,12 @@ class System:
     held : array of int
         Equations whose displacement is 0.
     frames : list of Frame
-        Rigid ones; those whose nodes are all held do not count.
+        Rigid frames; those whose nodes are all fixed are ignored.
 
     Raises
     ------
     DeclarationError
-        If two rigid frames, or a rigid frame and what is held, share a node.
+        If two rigid frames, or a rigid frame and the fixed equations, share a node.
     """
 
     def __init__(self, body: Solid, held: Array, frames: list[Frame]) -> None:
@@ -53,7 +55,7 @@ class System:
         for frame in stiff:
             if not alone[frame.equations].all():
                 raise DeclarationError(
-                    f"rigid frame {frame.name!r} shares nodes with another rigid frame or with what is held"
+                    f"rigid frame {frame.name!r} shares nodes with another rigid frame or with `hold`"
                 )
             alone[frame.equations] = False
         own = csr_array(eye_array(count))[np.flatnonzero(alone)]
@@ -78,7 +80,7 @@ class System:
 
     @cached_property
     def _factor(self) -> tuple[Any, Array]:
-        """Factors of the stiffness without as many freedoms as there are rigid motions, and the freedoms that are left."""
+        """Factors of the stiffness with a degree of freedom fixed for each rigid-body motion, and the free ones."""
         from scipy.linalg import qr
         from scipy.sparse.linalg import splu
 
@@ -89,7 +91,7 @@ class System:
         left = np.flatnonzero(kept)
         left = left[np.argsort(self._ranks()[self._nodes[left]], kind="stable")]
         reduced = self.stiffness[left][:, left].tocsc()
-        # A definite matrix needs no pivots, and its pattern is symmetric.
+        # A definite matrix needs no pivoting, and its pattern is symmetric.
         options = {"SymmetricMode": True}
         try:
             return splu(reduced, permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options), left
@@ -97,7 +99,7 @@ class System:
             raise _mechanism() from None
 
     def _ranks(self) -> Array:
-        """Rank of each node in the order of elimination; freedoms of rigid frames, which many nodes join, come last."""
+        """Return the elimination rank of each node; rigid frames, which are coupled to many nodes, come last."""
         from scipy.sparse import csr_array
 
         count = len(self.body.nodes)
@@ -108,23 +110,23 @@ class System:
         return ranks
 
     def solve(self, forces: Array) -> Array:
-        """Displacements under forces that are in balance, with the freedoms left out of the factors at rest."""
+        """Solve for displacements under forces in equilibrium, with the degrees of freedom of `_factor` fixed."""
         factor, left = self._factor
         found = np.zeros_like(forces)
         found[left] = factor.solve(np.ascontiguousarray(forces[left]))
         return found
 
     @cached_property
-    def nothing(self) -> float:
-        """Eigenvalue in 1/s2 of a motion without stiffness, at most: rounding, also that of files with few digits."""
+    def zero(self) -> float:
+        """Largest eigenvalue in 1/s2 that counts as 0: round-off of arithmetic and of files with few digits."""
         stiffest = self.stiffness.diagonal().max() / self.mass.diagonal().mean()
         motions, body = self.body.rigid, self.body
         rigid = np.sum(motions * (body.stiffness @ motions), axis=0) / np.sum(motions * body.weigh(motions), axis=0)
-        return max(np.finfo(float).eps * float(stiffest), NOTHING * float(np.abs(rigid).max()))
+        return max(np.finfo(float).eps * float(stiffest), ZERO_STIFFNESS * float(np.abs(rigid).max()))
 
 
 def _moves(frame: Frame, body: Solid) -> Array:
-    """Displacements of the nodes of a rigid frame from its freedoms, shape (3 k, 3 + r)."""
+    """Return the displacements of the nodes of a rigid frame by its degrees of freedom, shape (3 k, 3 + r)."""
     arms = (body.nodes[frame.nodes] - frame.place) / frame.radius
     turns = np.cross(frame.axes.T[None], arms[:, None, :]).transpose(0, 2, 1)
     return np.concatenate([np.broadcast_to(np.eye(3), (len(arms), 3, 3)), turns], axis=2).reshape(3 * len(arms), -1)
@@ -132,69 +134,69 @@ def _moves(frame: Frame, body: Solid) -> Array:
 
 def _mechanism() -> DeclarationError:
     return DeclarationError(
-        "more than six rigid motions: parts of the body move without stiffness beyond rounding, as pieces that only a hinge "
-        "or a node joins"
+        "more than six rigid-body motions: parts of the body move without stiffness beyond round-off, such as pieces that "
+        "are joined by a hinge or a single node"
     )
 
 
 class Flexibility:
-    """Inverse of the stiffness among motions that fulfil conditions: rows @ v = 0.
+    """Inverse of the stiffness under the constraints rows @ x = 0.
 
-    The forces of the conditions, lambda, balance the load: x = G (b - rows' lambda) + R xi with the inverse G of the
-    stiffness without six freedoms, rigid motions R, rows @ x = 0 and R' (b - rows' lambda) = 0.
+    The constraint forces lambda balance the load b: x = G (b - rows' lambda) + R xi, with the inverse G of the
+    stiffness with six degrees of freedom fixed, the rigid-body motions R, rows @ x = 0 and R' (b - rows' lambda) = 0.
 
     Parameters
     ----------
     system : System
-        Freedoms and stiffness.
+        Degrees of freedom and stiffness.
     rows : array, shape (k, freedoms)
-        Independent conditions that leave no rigid motion free.
+        Independent constraints that leave no rigid-body motion free.
     """
 
     def __init__(self, system: System, rows: Array) -> None:
         size = np.linalg.norm(rows, axis=1, keepdims=True)
         self.system, self.rows = system, rows / np.where(size > 0, size, 1.0)
-        self.answers = system.solve(np.ascontiguousarray(self.rows.T))
-        soft, self._held = self.rows @ self.answers, self.rows @ system.rigid
+        self.responses = system.solve(np.ascontiguousarray(self.rows.T))
+        soft, self._held = self.rows @ self.responses, self.rows @ system.rigid
         k, d = self._held.shape
-        # Displacements and forces in one size.
+        # Scale displacements to the size of forces.
         self._scale = np.abs(np.diag(soft)).mean() if k else 1.0
         self._saddle = np.zeros((k + d, k + d))
         self._saddle[:k, :k], self._saddle[:k, k:], self._saddle[k:, :k] = soft / self._scale, -self._held, self._held.T
 
     def apply(self, forces: Array) -> Array:
-        """Displacements under forces, shape (freedoms,) or (freedoms, k)."""
+        """Return the displacements under forces, shape (freedoms,) or (freedoms, k)."""
         system, k = self.system, len(self.rows)
         if not self._saddle.size:
             return system.solve(forces)
-        known = np.concatenate([self.answers.T @ forces / self._scale, system.rigid.T @ forces])
+        known = np.concatenate([self.responses.T @ forces / self._scale, system.rigid.T @ forces])
         found = np.linalg.solve(self._saddle, known)
         return system.solve(forces - self.rows.T @ found[:k]) + system.rigid @ (found[k:] * self._scale)
 
     def relative(self, shapes: Array) -> Array:
-        """Shapes that fulfil the conditions to the last digit, where these say no more than what a rigid motion is."""
+        """Subtract rigid motions so that shapes satisfy six constraints to round-off; other numbers change nothing."""
         if self._held.shape[0] != self._held.shape[1]:
             return shapes
         return shapes - self.system.rigid @ np.linalg.solve(self._held, self.rows @ shapes)
 
     def static(self, values: Array) -> Array:
-        """Displacements without load where rows @ x = values, shape (k, any), for the rows as they were given in size 1."""
+        """Return the displacements of the unloaded body for values of the unit rows, shape (k, any)."""
         k = len(self.rows)
         known = np.zeros((len(self._saddle), values.shape[1]))
         known[:k] = -values / self._scale
         found = np.linalg.solve(self._saddle, known)
-        return -self.answers @ found[:k] + self.system.rigid @ (found[k:] * self._scale)
+        return -self.responses @ found[:k] + self.system.rigid @ (found[k:] * self._scale)
 
 
 def orthogonal(system: System, shapes: Array) -> tuple[Array, Array]:
-    """Combinations of shapes that are orthonormal in mass and orthogonal in stiffness, and their eigenvalues in 1/s2.
+    """Rayleigh-Ritz: mass-orthonormal, stiffness-orthogonal combinations of shapes, and eigenvalues in 1/s2.
 
-    Shapes that depend on the others, or have no mass, drop out.
+    Linearly dependent and massless shapes are dropped.
     """
     from scipy.linalg import eigh
 
     basis = shapes
-    for _ in range(2):  # the first leaves the rounding of shapes that are nearly dependent
+    for _ in range(2):  # once more, as nearly dependent shapes leave round-off
         mass = basis.T @ (system.mass @ basis)
         size = np.sqrt(np.maximum(np.diag(mass), np.finfo(float).tiny))
         values, mix = eigh(mass / np.outer(size, size))
@@ -205,7 +207,7 @@ def orthogonal(system: System, shapes: Array) -> tuple[Array, Array]:
 
 
 def _settled(system: System, shapes: Array, squares: Array) -> Array:
-    """Modes of one sign, and of equal frequencies those along the axes: the same in every run, with the fewest terms."""
+    """Make modes reproducible: fix their sign, and align modes of equal frequency with the axes."""
     moved, first = system.expand @ shapes, 0
     for k in range(1, len(squares) + 1):
         if k == len(squares) or squares[k] > squares[first] * (1 + 2 * EQUAL):
@@ -216,33 +218,33 @@ def _settled(system: System, shapes: Array, squares: Array) -> Array:
                 turned = np.linalg.eigh((form + form.T) / 2)[1]
                 shapes[:, first:k], moved[:, first:k] = shapes[:, first:k] @ turned, group @ turned
             first = k
-    # Among entries that differ by rounding alone the first decides.
+    # The first of the entries that are equal up to round-off determines the sign.
     top = np.argmax(np.abs(moved) > (1 - 1e-6) * np.abs(moved).max(axis=0), axis=0)
     return shapes * np.sign(moved[top, range(len(squares))])
 
 
 def lowest(flexibility: Flexibility, count: int) -> tuple[Array, Array]:
-    """The modes of lowest frequency, and their eigenvalues in 1/s2, lowest first; fewer where there are no more.
+    """Compute the modes of lowest frequency and their eigenvalues in 1/s2, in ascending order.
 
     Parameters
     ----------
     flexibility : Flexibility
-        Stiffness and conditions.
+        Stiffness and constraints.
     count : int
-        How many are wanted; some more may be returned.
+        Number of modes requested; a few more, or fewer if there are no more, are returned.
 
     Raises
     ------
     DeclarationError
-        If a motion has no stiffness, or a negative one.
+        If a motion has zero or negative stiffness.
     """
     system, count = flexibility.system, count + MORE
     size = system.stiffness.shape[0]
     found = _all(flexibility, count) if size <= DENSE or count > SHARE * size else _some(flexibility, count)
-    # Once more, so that what has no mass, and what rounding left of the conditions, is gone.
+    # One more inverse iteration removes massless shapes and round-off in the constraints.
     shapes, squares = orthogonal(system, flexibility.relative(flexibility.apply(system.mass @ found)))
-    if len(squares) and squares[0] < system.nothing:
-        if squares[0] > -system.nothing:
+    if len(squares) and squares[0] < system.zero:
+        if squares[0] > -system.zero:
             raise _mechanism()
         raise DeclarationError(f"the stiffness matrix is indefinite: a mode has omega^2 = {squares[0]:.3g} 1/s2")
     return shapes, squares
@@ -267,10 +269,10 @@ def _some(flexibility: Flexibility, count: int) -> Array:
 
     system = flexibility.system
     shape = system.stiffness.shape
-    # In the range of the operator, and the same in every run.
+    # Start vector in the range of the operator, the same in every run.
     start = flexibility.apply(system.mass @ np.random.default_rng(0).normal(size=shape[0]))
     inverse = LinearOperator(shape, matvec=flexibility.apply, dtype=float)  # pyright: ignore
     try:
         return eigsh(system.stiffness, count, M=system.mass, sigma=0.0, OPinv=inverse, v0=start, tol=1e-12)[1]  # pyright: ignore
     except ArpackNoConvergence as error:
-        raise DeclarationError(f"only {len(error.eigenvalues)} of {count} modes were found; ask for fewer") from None
+        raise DeclarationError(f"only {len(error.eigenvalues)} of {count} modes converged; request fewer") from None

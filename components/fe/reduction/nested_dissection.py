@@ -1,4 +1,4 @@
-"""Order in which equations of a mesh are eliminated, so that few entries fill in."""
+"""Fill-reducing elimination order of the equations of a mesh."""
 
 from __future__ import annotations
 
@@ -8,31 +8,31 @@ import numpy as np
 
 from components.fe.arrays import Array
 
-# Nodes of a part that is not cut further: halving it would gain nothing.
+# Nodes of a part that is not split further: smaller parts save no fill-in.
 LEAF = 30
 
 
 def dissection(graph: Any, places: Array) -> Array:
-    """Nested dissection by the places of the nodes: both halves first, then the nodes between them.
+    """Return the nested dissection order by node positions: both halves, then their separator.
 
-    The factors of a compact block of 9,261 tetrahedral nodes have 0.7 times the entries that minimum degree leaves, and
-    take 0.4 times as long; of larger ones less (George, SIAM J. Numer. Anal. 10, 1973).
+    Compared with minimum degree, the factors of a block of 9,261 tetrahedral nodes have 0.7 times the entries and take
+    0.4 times as long, with a larger advantage for larger blocks (George, SIAM J. Numer. Anal. 10, 1973).
 
     Parameters
     ----------
     graph : sparse matrix, shape (N, N)
-        Nodes that an element joins have an entry; symmetric.
+        Adjacency of the nodes by elements; symmetric.
     places : array, shape (N, 3)
-        Their places.
+        Positions of the nodes.
 
     Returns
     -------
     array of int, shape (N,)
-        The nodes in the order of elimination.
+        Nodes in elimination order.
     """
     parts: list[Array] = []
     work = [np.arange(len(places))]
-    while work:  # the last part that is done comes first in the end
+    while work:  # separators are found top down and reversed at the end
         nodes = work.pop()
         along = places[nodes, np.argmax(np.ptp(places[nodes], axis=0))] if len(nodes) > LEAF else np.zeros(1)
         middle = np.median(along)

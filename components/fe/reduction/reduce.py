@@ -1,4 +1,4 @@
-"""From mass and stiffness matrices to a reduced body."""
+"""Modal reduction of mass and stiffness matrices."""
 
 from __future__ import annotations
 
@@ -41,42 +41,42 @@ def reduce_body(
         Mass in kg and stiffness in N/m of the free body; equations in the order x, y, z of each node. M may be
         semi-definite; its 3 x 3 blocks must be multiples of the unit matrix.
     nodes : array_like, shape (N, 3)
-        Places of the nodes in m. Their axes are those of the reference frame and of all frames that have none of their own.
+        Positions of the nodes in m. The reference frame and frames without axes of their own have the same axes.
     frames : mapping from str to nodes
         Frames where the body is connected: a name and the indices of its nodes, counted from 0. A frame follows the
-        average of its nodes, weighted by the area of the faces of the mesh that they span, and equally where `nodes` know
-        no elements; where it is held by the reference frame, each of its nodes is held. It lies at the mean of its nodes,
-        and a warning tells where that is not the centre of a circle on which they lie: `frame_at(nodes, place, axes)` says
-        where it lies and how it is turned. `rigid(nodes)` joins the nodes rigidly, as where two bodies are welded;
-        `average(nodes, weights)` always averages.
+        average of its nodes, weighted by the area of the faces that they span, or equally if `nodes` has no elements.
+        If the reference frame is fixed to the frame, each of its nodes is fixed. The frame is at the mean of its nodes,
+        with a warning if that is off the axis of a circle through them; `frame_at(nodes, place, axes)` sets its
+        position and axes. `rigid(nodes)` connects the nodes rigidly, as for welded bodies; `average(nodes, weights)`
+        always averages.
     hold : str, (int, int, int) or mapping
-        What the reference frame is fixed to, that is, where the modes have no displacement:
+        What the reference frame is fixed to; the modes have no displacement there:
 
-        - a frame of `frames`. If its nodes are on a line, as those of a hinge, the turn about it is taken out by the
-          frame that is farthest from the line: it cannot leave the plane through itself and the line;
+        - a frame of `frames`. If its nodes are collinear, as at a hinge, the rotation about their line is fixed by the
+          frame farthest from the line, which stays in its plane with the line;
         - "mean-axis": the modes have neither momentum nor angular momentum (Buckens); the origin is the centre of mass;
         - (i, j, k): node i is the origin, node j stays on the line from i to j, node k in the plane of the three
           (Vlasenko and Kasper 2008, equations (99) to (103));
-        - directions by frames or nodes, as {"hinge": "xyz", "tip": "z"} or {0: "xyz", 2: "xyz", 4: "xyz", 53: "z"}.
+        - directions by frames or nodes: {"hinge": "xyz", "tip": "z"} or {0: "xyz", 2: "xyz", 4: "xyz", 53: "z"}.
     modes : int
-        Number of modes, of a Craig-Bampton basis with its static ones. Not looked at where there is a frequency bound.
+        Number of modes, including the static modes of a Craig-Bampton basis. Ignored if `frequency` is given.
     basis : str
-        - "held": modes of the body whose reference frame is held;
-        - "free": modes of the free body, less the motion of the reference frame, where a frame that it holds is held on
-          average; the same as "held" for "mean-axis";
-        - "craig-bampton": modes with all frames held, and a static mode for each freedom of a frame against the
-          reference frame (Craig and Bampton 1968): exact under slow forces on the frames.
+        - "held": modes of the body with its reference frame fixed;
+        - "free": modes of the free body relative to the reference frame, which is fixed to the average of a frame's
+          nodes; the same as "held" for "mean-axis";
+        - "craig-bampton": modes with all frames fixed, and a static mode for each degree of freedom of a frame relative
+          to the reference frame (Craig and Bampton 1968): exact under slow forces on the frames.
 
-        All are made orthogonal, in the order of their frequencies with the reference frame held.
+        All are orthogonalised and ordered by their frequencies with the reference frame fixed.
     damping : float or array_like, shape (n,)
-        Part of critical damping of each of these modes.
+        Damping ratio of the modes.
     frequency : float, optional
-        Take all modes up to this frequency in Hz (of a Craig-Bampton basis: with all frames held), instead of a number.
+        Take all modes up to this frequency in Hz (Craig-Bampton: with all frames fixed) instead of a number.
 
     Returns
     -------
     ReducedBody
-        With nodes and modes at nodes for results at nodes.
+        With nodes and nodal modes, for nodal results.
 
     Raises
     ------
@@ -95,9 +95,9 @@ def reduce_body(
     wanted = None if frequency is not None else int(modes)
     shapes, squares, held = basis_of(basis, hold, found, body, wanted, frequency or np.inf)
     if not len(squares):
-        raise DeclarationError(f"no mode lies below {frequency} Hz")
+        raise DeclarationError(f"no mode is below {frequency} Hz")
     if wanted is not None and len(squares) < wanted:
-        raise DeclarationError(f"there are {len(squares)} modes with mass, fewer than modes={wanted}")
+        raise DeclarationError(f"the body has only {len(squares)} modes with mass, but modes={wanted}")
     shapes, squares = shapes[:, :wanted], squares[:wanted]
     free = "average" if basis == "free" else "held"
     found = [replace(frame, kind=frame.kind or (free if frame.name in held.names else "average")) for frame in found]
@@ -106,9 +106,9 @@ def reduce_body(
 
 def _numbers(modes: Any, frequency: Any) -> None:
     if isinstance(modes, bool) or not isinstance(modes, int | np.integer) or modes < 1:
-        raise DeclarationError(f"modes is a whole number from 1 on, not {modes!r}")
+        raise DeclarationError(f"modes must be a positive integer, not {modes!r}")
     if frequency is not None and not (isinstance(frequency, int | float | np.number) and 0 < frequency < np.inf):
-        raise DeclarationError(f"frequency is a positive bound in Hz, not {frequency!r}")
+        raise DeclarationError(f"frequency must be a positive bound in Hz, not {frequency!r}")
 
 
 def _reduced(
@@ -120,7 +120,7 @@ def _reduced(
     real = np.issubdtype(given.dtype, np.floating) or np.issubdtype(given.dtype, np.integer)
     if ratios.shape != (n,) or not real or not (np.isfinite(ratios) & (ratios >= 0)).all():
         raise DeclarationError(
-            f"damping is a part of critical damping, 0 or more, for all or each of {n} modes, not {damping!r}"
+            f"damping must be a damping ratio of 0 or more for all, or for each of the {n} modes, not {damping!r}"
         )
     places, modes = body.nodes - held.origin, shapes.reshape(count, 3, n)
     integrals = invariants(body.mass, places, modes)
@@ -141,7 +141,7 @@ def _interface(frame: Frame, shapes: Array, held: Reference, body: Solid) -> Int
     place = np.where(np.abs(place) > ROUNDING * body.size, place, 0.0)
     averages = several and frame.kind == "average"
     if frame.name in held.names:
-        # Nodes on a line that are all held stand for the reference frame itself; a single node has no turn at all.
+        # Collinear nodes that are all fixed are the reference frame itself, with all rotations; a single node has none.
         still = np.zeros((3, n))
         return Interface(frame.name, frame.place - held.origin, still, still, several, frame.orientation, averages)
     maps = frame.maps @ shapes[frame.equations]

@@ -1,4 +1,4 @@
-"""A solid body reduced to modes: what the equations of a body in a floating frame need, and nothing of its mesh."""
+"""A solid body reduced to modes: the data of its equations in a floating frame, independent of the mesh."""
 
 from __future__ import annotations
 
@@ -18,45 +18,46 @@ from components.fe.reduction.inertia_invariants import axial
 from components.fe.reduction.interface import Interface
 from components.fe.reduction.nodal_field import NodalField
 
-# Part of mass or stiffness: far above the rounding of a reduction, far below a change of a design.
+# Relative difference of mass and stiffness of equal bodies: far above the round-off of a reduction, far below a design
+# change.
 ALIKE = 1e-6
 MAPS = ("place", "displacement", "rotation", "axes")  # arrays of an interface
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ReducedBody:
-    """A body with n modes phi_b: in its reference frame, a point that was at r0 is at r0 + sum over b of phi_b(r0) q_b.
+    """A body with n modes phi_b: in its reference frame, the point at r0 moves to r0 + sum over b of phi_b(r0) q_b.
 
-    All in SI, relative to the origin of the reference frame and resolved in it. Bodies are equal if everything is that
-    the equations use; data at nodes, which only results at nodes need, are compared, pickled and hashed by nobody.
+    All data are in SI, relative to the origin of the reference frame and resolved in it. Bodies are equal if all data
+    of the equations are equal. Nodal data, which only nodal results need, are not compared, hashed or pickled.
 
     Parameters
     ----------
     mass : float
-        m in kg.
+        Mass m in kg.
     first_moment : array, shape (3,)
-        s0, the integral of r0 dm in kg.m.
+        s0, integral of r0 dm in kg.m.
     second_moment : array, shape (3, 3)
-        P0, the integral of r0 r0' dm in kg.m2.
+        P0, integral of r0 r0' dm in kg.m2.
     modal_first : array, shape (3, n)
-        S, the integrals of phi_b dm.
+        S, integrals of phi_b dm.
     modal_second : array, shape (n, 3, 3)
-        A_b, the integrals of r0 phi_b' dm.
+        A_b, integrals of r0 phi_b' dm.
     modal_products : array, shape (n, n, 3, 3)
-        B_bc, the integrals of phi_b phi_c' dm.
+        B_bc, integrals of phi_b phi_c' dm.
     M, K, D : array, shape (n, n)
-        Modal mass, the trace of B_bc, stiffness and damping.
+        Modal mass (the trace of B_bc), stiffness and damping.
     interfaces : tuple of Interface
-        Frames where the body is connected.
+        Frames at which the body can be connected.
     origin : array, shape (3,)
-        Place of the reference frame in the coordinates in which the nodes were given, in m; the axes are the same.
+        Position of the reference frame in the coordinates of the original nodes, in m; the axes are the same.
     nodal : NodalField, optional
-        Nodes and modes at nodes; left behind when the body is sent to another process.
+        Nodes and nodal modes; not pickled, so not sent to other processes.
 
     Raises
     ------
     DeclarationError
-        If a shape does not fit the others, a number is not finite, or two interfaces have one name.
+        If shapes are inconsistent, a number is not finite, or two interfaces have the same name.
     """
 
     mass: float
@@ -75,7 +76,7 @@ class ReducedBody:
     def __post_init__(self) -> None:
         if np.ndim(self.modal_first) != 2:
             raise DeclarationError(
-                "modal_first of a reduced body has one row for x, y and z, and one column for each mode"
+                "modal_first of a reduced body must have three rows x, y, z and a column for each mode"
             )
         for name, shape in _shapes(self.n).items():
             object.__setattr__(self, name, frozen(getattr(self, name), shape, f"{name} of a reduced body"))
@@ -83,11 +84,11 @@ class ReducedBody:
         object.__setattr__(self, "interfaces", tuple(self.interfaces))
         names = [frame.name for frame in self.interfaces]
         if len(set(names)) < len(names):
-            raise DeclarationError(f"two interfaces of a reduced body have one name: {', '.join(names)}")
+            raise DeclarationError(f"interfaces of a reduced body must have different names: {', '.join(names)}")
         wrong = [frame.name for frame in self.interfaces if frame.displacement.shape[1] != self.n]
         if wrong or (self.nodal is not None and self.nodal.modes.shape[2] != self.n):
             raise DeclarationError(
-                f"{', '.join(wrong) or 'nodal'} of a reduced body of {self.n} modes has another number"
+                f"the number of modes of {', '.join(wrong) or 'nodal'} differs from that of the reduced body, {self.n}"
             )
 
     @property
@@ -97,25 +98,23 @@ class ReducedBody:
 
     @property
     def frequencies(self) -> Array:
-        """Frequencies of the modes in Hz while the reference frame is held, shape (n,), lowest first."""
+        """Frequencies of the modes in Hz with the reference frame fixed, shape (n,), in ascending order."""
         squares = np.linalg.eigvals(np.linalg.solve(self.M, self.K)).real if self.n else np.zeros(0)
         return np.sqrt(np.sort(np.maximum(squares, 0.0))) / (2 * np.pi)
 
     @property
     def effective_mass(self) -> Array:
-        """Mass that each mode moves along when the reference frame is accelerated, shape (n, 6).
+        """Effective modal mass, shape (n, 6): along x, y, z in kg, and about x, y, z of the reference frame in kg.m2.
 
-        Along x, y, z in kg and about x, y, z of the reference frame in kg.m2: (S_b)^2 / M_bb and (H_b)^2 / M_bb with
-        H_b the integral of r0 x phi_b dm. Modes in a mean-axis frame have none.
+        (S_b)^2 / M_bb and (H_b)^2 / M_bb, with H_b the integral of r0 x phi_b dm. Modes in a mean-axis frame have none.
         """
         return np.hstack([self.modal_first.T, axial(self.modal_second)]) ** 2 / np.diag(self.M)[:, None]
 
     @property
     def lost_mass(self) -> Array:
-        """Part of the mass and of the moments of inertia that is in no `effective_mass`, from 0 to 1, shape (6,).
+        """Residual mass: fraction of the mass and of the moments of inertia in no `effective_mass`, shape (6,).
 
-        It does not follow an acceleration of the reference frame by deformation: what modes left out would carry, and
-        what is part of the held nodes themselves, which no mode moves.
+        It consists of the effective mass of truncated modes and of the mass at the fixed nodes, which no mode moves.
         """
         P = self.second_moment
         whole = np.array([*[self.mass] * 3, *(np.trace(P) - np.diag(P))])
@@ -123,19 +122,19 @@ class ReducedBody:
 
     @property
     def second_order(self) -> bool:
-        """True if the symmetric parts of B_bc are known, from which inertia of second order in q follows; some SID lack them."""
+        """True if the symmetric parts of B_bc are known, as inertia of second order in q needs; some SIDs lack them."""
         return bool(np.trace(self.modal_products, axis1=2, axis2=3).any())
 
     def first(self, n: int) -> ReducedBody:
-        """The body with the first n of its modes.
+        """Return the body with the first n of its modes.
 
         Raises
         ------
         DeclarationError
-            If n is negative, no whole number, or more than there are.
+            If n is not an integer from 0 to the number of modes.
         """
         if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 0 <= n <= self.n:
-            raise DeclarationError(f"a reduced body of {self.n} modes cannot give the first {n!r}: take 0 to {self.n}")
+            raise DeclarationError(f"modes of a reduced body must be an integer from 0 to {self.n}, not {n!r}")
         if n == self.n:
             return self
         return replace(
@@ -150,7 +149,7 @@ class ReducedBody:
 
     @cached_property
     def digest(self) -> str:
-        """Hash of all that the equations use."""
+        """Hash of all data of the equations."""
         total = hashlib.sha256()
         for name, array in self._arrays():
             total.update(f"{name} {array.shape} {array.dtype}".encode() + array.tobytes())
@@ -188,14 +187,14 @@ class ReducedBody:
         return self
 
     def save(self, path: str | Path, *, nodal: bool = True) -> None:
-        """Write the body to a .npz file, whole or not at all.
+        """Write the body to a .npz file, atomically.
 
         Parameters
         ----------
         path : str or Path
-            File; one that exists is replaced when the new one is complete.
+            File; an existing one is replaced once the new one is complete.
         nodal : bool
-            Whether nodes and modes at nodes go along, where there are any.
+            Whether to include nodes and nodal modes, if the body has them.
 
         Raises
         ------
@@ -215,7 +214,7 @@ class ReducedBody:
         Raises
         ------
         DeclarationError
-            If there is no such file, or it is none of a reduced body, or not whole.
+            If the file does not exist, is not a reduced-body file, or is damaged.
         """
         content = archive.read(Path(path))
         frames, k = [], 0
@@ -236,7 +235,7 @@ class ReducedBody:
 
 
 def alike(one: ReducedBody, other: ReducedBody) -> bool:
-    """Whether two bodies are one up to rounding, as one that was reduced twice, with more modes the second time."""
+    """Return whether two bodies are equal up to round-off, such as two reductions of the same matrices."""
     if one.n != other.n or [i.name for i in one.interfaces] != [i.name for i in other.interfaces]:
         return False
     return all(

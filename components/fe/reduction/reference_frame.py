@@ -1,4 +1,4 @@
-"""Reference frames: six conditions on the deformation of a body that say what its rigid motion is."""
+"""Reference frames: constraints on the deformation of a body that define its rigid motion."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ DIRECTIONS = "xyz"
 
 @dataclass(frozen=True)
 class Reference:
-    """Reference frame of a body; its axes are those of the nodes' coordinates.
+    """Reference frame of a body; its axes are those of the node coordinates.
 
     Parameters
     ----------
     origin : array, shape (3,)
-        Place in m.
+        Position in m.
     held : array of int
-        Equations whose displacement is 0.
+        Equations with displacement 0.
     rows : array, shape (k, 3 N)
-        Further conditions: rows @ u = 0.
+        Further constraints: rows @ u = 0.
     names : tuple of str
-        Interfaces that are the reference frame itself, or fixed to it.
+        Interfaces that coincide with the reference frame or are fixed to it.
     """
 
     origin: Array
@@ -40,12 +40,12 @@ class Reference:
 
 
 def reference(hold: Any, frames: list[Frame], body: Solid) -> Reference:
-    """The reference frame that `hold` of `reduce_body` asks for, which leaves no rigid motion free.
+    """Return the reference frame defined by `hold` of `reduce_body`.
 
     Raises
     ------
     DeclarationError
-        If `hold` names no frame or node, or leaves rigid motions free.
+        If `hold` refers to unknown frames or nodes, or leaves rigid-body motions free.
     """
     if isinstance(hold, str) and hold == MEAN_AXIS:
         return Reference(body.centre, np.zeros(0, dtype=int), body.weigh(body.rigid).T / body.total)
@@ -55,25 +55,24 @@ def reference(hold: Any, frames: list[Frame], body: Solid) -> Reference:
     nodes = np.asarray(hold)
     if nodes.shape != (3,) or not np.issubdtype(nodes.dtype, np.integer):
         raise DeclarationError(
-            f'hold is a frame, "mean-axis", three nodes (i, j, k), or directions by frames or nodes as {{"hinge": "xyz", '
-            f'"tip": "z"}}, not {hold!r}'
+            f'hold must be a frame, "mean-axis", three nodes (i, j, k), or directions by frames or nodes such as '
+            f'{{"hinge": "xyz", "tip": "z"}}, not {hold!r}'
         )
     return _of_three([_node(k, body) for k in nodes.tolist()], body)
 
 
 def _node(k: Any, body: Solid) -> int:
     if isinstance(k, bool) or not isinstance(k, int | np.integer) or not 0 <= k < len(body.nodes):
-        raise DeclarationError(f"hold names {k!r}, but nodes are counted from 0 to {len(body.nodes) - 1}")
+        raise DeclarationError(f"hold refers to node {k!r}, but nodes are numbered 0 to {len(body.nodes) - 1}")
     if body.empty[k]:
-        raise DeclarationError(f"node {k} that hold names has no stiffness")
+        raise DeclarationError(f"node {k} of hold has no stiffness")
     return int(k)
 
 
 def _of_three(nodes: list[int], body: Solid) -> Reference:
-    """Origin in node i, x towards node j, node k in the plane of x and y (Vlasenko and Kasper 2008, (99) to (103)).
+    """Origin at node i, x axis through node j, node k in the x-y plane (Vlasenko and Kasper 2008, (99) to (103)).
 
-    The conditions are theirs; the axes of the frame are those of the coordinates, from which theirs differ by a
-    constant rotation.
+    The constraints are theirs; the axes are those of the coordinates, which differ from theirs by a constant rotation.
     """
     i, j, k = nodes
     first, second = body.nodes[j] - body.nodes[i], body.nodes[k] - body.nodes[i]
@@ -81,7 +80,7 @@ def _of_three(nodes: list[int], body: Solid) -> Reference:
     extent = max(np.linalg.norm(first), np.linalg.norm(second))
     if np.linalg.norm(normal) <= ON_A_LINE * extent * max(np.linalg.norm(first), ON_A_LINE * extent):
         raise DeclarationError(
-            f"the nodes {i}, {j}, {k} of the reference frame lie on a line: a frame needs a triangle"
+            f"the nodes {i}, {j}, {k} of the reference frame are collinear; they must form a triangle"
         )
     x, z = first / np.linalg.norm(first), normal / np.linalg.norm(normal)
     rows = np.zeros((6, 3 * len(body.nodes)))
@@ -92,20 +91,20 @@ def _of_three(nodes: list[int], body: Solid) -> Reference:
 
 
 def _of_frames(hold: Mapping[Any, Any], frames: list[Frame], body: Solid) -> Reference:
-    """Nodes of frames, or their averages, held in some directions."""
+    """Fix nodes of frames, or their averages, in some directions."""
     known = {frame.name: frame for frame in frames}
     held, rows, origin = [], [], None
     for name, letters in hold.items():
         if not isinstance(letters, str) or not letters or set(letters) - set(DIRECTIONS):
-            raise DeclarationError(f'directions that are held are letters of "xyz", not {letters!r} as for {name!r}')
+            raise DeclarationError(f'the directions of {name!r} in hold must be letters of "xyz", not {letters!r}')
         axes = np.array([DIRECTIONS.index(letter) for letter in dict.fromkeys(letters)])
         if isinstance(name, str):
             if name not in known:
                 raise DeclarationError(
-                    f'hold names {name!r}, but the frames are {", ".join(known) or "none"}, or "mean-axis"'
+                    f'hold refers to {name!r}, but the frames are {", ".join(known) or "none"}, or "mean-axis"'
                 )
             frame = known[name]
-            # A rigid frame moves as a whole: some of its directions are held where it stands, all at every node.
+            # A rigid frame is fixed at its position in some directions, or at every node in all of them.
             nodes, average = frame.nodes, frame.kind == "average" or (frame.kind == "rigid" and len(axes) < 3)
         else:
             frame, nodes, average = None, np.array([_node(name, body)]), False
@@ -121,7 +120,7 @@ def _of_frames(hold: Mapping[Any, Any], frames: list[Frame], body: Solid) -> Ref
         origin = body.nodes[np.unique(equations // 3)].mean(axis=0) if len(equations) else body.centre
     names = tuple(f.name for f in frames if _stands(f, hold, equations))
     if not names and len(equations) + len(conditions) == 6:
-        # Six directions of nodes say what a rigid motion is, and hold no interface: conditions as any others.
+        # Six fixed directions define the rigid motion without fixing an interface: treat them as constraint rows.
         units = np.zeros((len(equations), 3 * len(body.nodes)))
         units[range(len(equations)), equations] = 1.0
         conditions = np.vstack([units, conditions])
@@ -136,14 +135,14 @@ def _stands(frame: Frame, hold: Mapping[Any, Any], equations: Array) -> bool:
 
 
 def spread(frame: Frame, body: Solid) -> Array:
-    """Rows over all equations that give the freedoms of a frame."""
+    """Return the degrees of freedom of a frame as rows over all equations."""
     rows = np.zeros((len(frame.freedoms), 3 * len(body.nodes)))
     rows[:, frame.equations] = frame.freedoms
     return rows
 
 
 def _completed(found: Reference, frames: list[Frame], body: Solid) -> Reference:
-    """Nodes on a line leave the turn about it free: the frame that is farthest from the line takes it out."""
+    """Fix the rotation about collinear nodes by the frame farthest from their line."""
     free = free_motions(found, body)
     if free.shape[1] == 0:
         return found
@@ -154,19 +153,19 @@ def _completed(found: Reference, frames: list[Frame], body: Solid) -> Reference:
     if rows is not None and far > ON_A_LINE:
         return Reference(found.origin, found.held, np.vstack([found.rows, motion / far @ rows]), found.names)
     raise DeclarationError(
-        f"hold leaves {free.shape[1]} of the six rigid motions of the body free (too few nodes, or nodes on a line): take "
-        "a frame of more nodes, give a second one off the line, or, from Python, hold more, as "
+        f"hold leaves {free.shape[1]} of the six rigid-body motions free: too few nodes, or collinear ones. Use a frame of "
+        "more nodes, add a frame off the line, or, in Python, hold more directions, such as "
         '{"hinge": "xyz", "tip": "z"}'
     )
 
 
 def free_motions(found: Reference, body: Solid) -> Array:
-    """Combinations of `body.rigid` that a reference frame leaves free, shape (6, d)."""
+    """Return the combinations of `body.rigid` that a reference frame leaves free, shape (6, d)."""
     conditions = np.vstack([body.rigid[found.held], found.rows @ body.rigid])
     return null_space(conditions)
 
 
 def null_space(rows: Array) -> Array:
-    """Orthonormal columns that rows @ columns cuts to 0, up to nodes that are as good as on a line."""
+    """Return an orthonormal basis of the null space of rows, with the tolerance of collinear nodes."""
     _, values, directions = np.linalg.svd(np.linalg.qr(np.vstack([rows, np.zeros((rows.shape[1],) * 2)]), mode="r"))
     return directions[values <= ON_A_LINE * max(values.max(), np.finfo(float).tiny)].T

@@ -1,4 +1,4 @@
-"""What the reduction knows of a body: masses of pairs of nodes, stiffness, places; and its rigid motions."""
+"""The free body to be reduced: mass, stiffness, node positions and rigid-body motions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from components.fe.arrays import Array
 
 
 def rigid_motions(nodes: Array, about: Array, size: float) -> Array:
-    """Displacements of the nodes in unit translations along x, y, z and turns of 1/size about them, shape (N, 3, 6)."""
+    """Return unit translations along x, y, z and rotations by 1/size about them, shape (N, 3, 6)."""
     arms = (nodes - about) / size
     turns = np.cross(np.eye(3)[None], arms[:, None, :])  # node, axis, direction
     moves = np.broadcast_to(np.eye(3), (len(nodes), 3, 3))
@@ -21,18 +21,18 @@ def rigid_motions(nodes: Array, about: Array, size: float) -> Array:
 
 @dataclass(frozen=True)
 class Solid:
-    """A free body that `checked_solid` has found right.
+    """A free body with matrices checked by `checked_solid`.
 
     Parameters
     ----------
     mass : sparse matrix, shape (N, N)
-        Mass of each pair of nodes in kg; the mass matrix is its Kronecker product with the unit matrix of 3.
+        Mass of each pair of nodes in kg; the mass matrix is its Kronecker product with the 3 x 3 unit matrix.
     stiffness : sparse matrix, shape (3 N, 3 N)
         In N/m; equations in the order x, y, z of each node.
     nodes : array, shape (N, 3)
-        Places in m.
+        Positions in m.
     empty : array of bool, shape (N,)
-        Nodes that carry nothing: neither stiffness nor mass.
+        Nodes without stiffness and mass.
     """
 
     mass: Any
@@ -42,7 +42,7 @@ class Solid:
 
     @cached_property
     def node_mass(self) -> Array:
-        """Mass in kg that follows each node in a translation, shape (N,)."""
+        """Row sums of the mass matrix in kg, shape (N,)."""
         return np.asarray(self.mass.sum(axis=1)).ravel()
 
     @cached_property
@@ -57,15 +57,15 @@ class Solid:
 
     @cached_property
     def size(self) -> float:
-        """Length in m that makes turns and translations comparable: the largest distance from the centre of mass."""
+        """Largest distance of a node from the centre of mass in m, which scales rotations to translations."""
         return float(np.linalg.norm(self.nodes[~self.empty] - self.centre, axis=1).max())
 
     @cached_property
     def rigid(self) -> Array:
-        """Rigid motions of all equations, shape (3 N, 6): translations, and turns of 1/size about the centre of mass."""
+        """Rigid-body motions, shape (3 N, 6): translations, and rotations of 1/size about the centre of mass."""
         return rigid_motions(self.nodes, self.centre, self.size).reshape(-1, 6)
 
     def weigh(self, motions: Array) -> Array:
-        """The mass matrix times motions of shape (3 N, k)."""
+        """Return the mass matrix times motions of shape (3 N, k)."""
         shape = motions.shape
         return (self.mass @ motions.reshape(len(self.nodes), -1)).reshape(shape)

@@ -1,4 +1,4 @@
-"""Sets of nodes that carry a frame: rigid and averaging spiders, their place and axes."""
+"""Spiders: node sets that define a frame, rigid (RBE2) or averaging (RBE3), with its position and axes."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.arrays import Array
 
-# Axes are given with six or seven digits: how far a third one may be from right angles.
+# Deviation of given axes from right angles: they have six or seven digits.
 SQUARE = 1e-5
 
 
 @dataclass(frozen=True)
 class Spider:
-    """Nodes that carry a frame; see `frame_at`, `rigid` and `average`.
+    """Nodes that define a frame; see `frame_at`, `rigid` and `average`.
 
     Parameters
     ----------
     nodes : tuple of int
         Rows of the nodes.
     kind : str
-        "" (as the frame is used), "rigid" or "average".
+        "rigid", "average", or "" (fixed or averaged, depending on `hold`).
     weights : tuple of float, optional
-        Of each node; by default those of the area of the faces that the nodes span.
+        Weight of each node; by default the area weights of the faces that the nodes span.
     place : tuple of 3 floats, optional
-        In m; by default the weighted mean of the nodes.
+        Position in m; by default the weighted mean of the nodes.
     axes : array, shape (3, 3), optional
-        Directions x, y, z of the frame as rows; by default those of the nodes' coordinates.
+        Axes x, y, z of the frame as rows; by default those of the node coordinates.
     """
 
     nodes: tuple[int, ...]
@@ -40,23 +40,23 @@ class Spider:
 
 
 def frame_at(nodes: Any, place: Any = None, axes: Any = None) -> Spider:
-    """A frame at a place, with axes of its own: held or averaging as nodes without this are.
+    """Give a frame a position and axes; its nodes are fixed or averaged as those of a plain frame.
 
     Parameters
     ----------
     nodes : sequence of int
         Nodes, counted from 0.
     place : 3 floats, optional
-        Place of the frame in m, in the coordinates of the nodes, such as the centre of a hole. By default the mean of the
-        nodes, weighted by the area of the faces that they span.
+        Position of the frame in m, in node coordinates, such as the centre of a hole. By default the mean of the nodes,
+        weighted by the area of the faces that they span.
     axes : 2 or 3 vectors, optional
-        Direction of x, a vector in the plane of x and y, and z if given, in the coordinates of the nodes. By default the
-        axes of the coordinates.
+        Direction of x, a vector in the x-y plane, and optionally z, in node coordinates. By default the axes of the
+        coordinates.
 
     Raises
     ------
     DeclarationError
-        If the place is no place, or the axes are no right-handed ones.
+        If the position is not a vector, or the axes are not right-handed.
 
     Examples
     --------
@@ -66,10 +66,9 @@ def frame_at(nodes: Any, place: Any = None, axes: Any = None) -> Spider:
 
 
 def rigid(nodes: Any, *, place: Any = None, axes: Any = None) -> Spider:
-    """A rigid spider: the nodes move as one rigid body, which stiffens what they are part of.
+    """Make a rigid spider (RBE2): its nodes move as one rigid body, which stiffens the body there.
 
-    Faces that are welded to another body are rigid ones: the mean of a face follows a joint of two averages more softly than
-    the material.
+    Use it for faces welded to another body: a joint of two averaging frames is softer than the material.
 
     Parameters
     ----------
@@ -82,26 +81,26 @@ def rigid(nodes: Any, *, place: Any = None, axes: Any = None) -> Spider:
 
 
 def average(nodes: Any, weights: Any = None, *, place: Any = None, axes: Any = None) -> Spider:
-    """An averaging spider: the frame follows the nodes and stiffens nothing.
+    """Make an averaging spider (RBE3): the frame follows the mean of its nodes, without stiffening the body.
 
-    Its mean place is displaced by the mean of the nodes' displacements u, and turned by the rotation that fits them best,
-    with d the nodes' distances from the mean place: Psi = (sum w (|d|^2 E - d d'))^-1 sum w d x u. A force on the frame is
-    distributed over the nodes in the same proportion.
+    The displacement at the mean position is the mean of the nodal displacements u, and the rotation is the
+    least-squares fit Psi = (sum w (|d|^2 E - d d'))^-1 sum w d x u, with d the vectors from the mean position to the
+    nodes. Forces on the frame are distributed over the nodes with the same weights.
 
     Parameters
     ----------
     nodes : sequence of int
         Nodes, counted from 0.
     weights : sequence of float, optional
-        Positive weight w of each node. By default the integral of its shape function over the faces of the mesh that the
-        nodes span, so that a force acts as a uniform pressure; equal ones where no faces are known.
+        Positive weight w of each node. By default the integral of its shape function over the faces that the nodes
+        span, so that a force acts as a uniform pressure; equal weights if no faces are known.
     place, axes : optional
         See `frame_at`.
 
     Raises
     ------
     DeclarationError
-        If there are not as many weights as nodes, or one is not positive.
+        If the number of weights differs from that of the nodes, or a weight is not positive.
     """
     found = indices(nodes)
     if weights is None:
@@ -109,20 +108,22 @@ def average(nodes: Any, weights: Any = None, *, place: Any = None, axes: Any = N
     shares = np.asarray(weights, dtype=float)
     if shares.shape != (len(found),) or not (np.isfinite(shares) & (shares > 0)).all():
         raise DeclarationError(
-            f"an averaging frame needs one positive weight for each of its {len(found)} nodes: {weights!r}"
+            f"weights must be one positive number for each of the {len(found)} nodes, not {weights!r}"
         )
     return Spider(found, "average", tuple(shares.tolist()), _place(place), _axes(axes))
 
 
 def _place(place: Any) -> tuple[float, ...] | None:
-    return None if place is None else tuple(_vectors(place, ((3,),), "the place of a frame is x, y, z in m").tolist())
+    return (
+        None if place is None else tuple(_vectors(place, ((3,),), "the place of a frame must be x, y, z in m").tolist())
+    )
 
 
 def _axes(axes: Any) -> Array | None:
-    """Rows x, y, z of length 1, from x, a vector in the plane of x and y, and z if given."""
+    """Return orthonormal rows x, y, z from x, a vector in the x-y plane, and optionally z."""
     if axes is None:
         return None
-    what = "axes of a frame are the directions of x, y and z as three vectors at right angles, or of x and y alone"
+    what = "the axes of a frame must be orthogonal vectors along x, y and z, or x and a vector in the x-y plane"
     rows = _vectors(axes, ((2, 3), (3, 3)), what)
     sizes = np.linalg.norm(rows, axis=1)
     if not sizes.all():
@@ -146,8 +147,8 @@ def _vectors(given: Any, shapes: tuple[tuple[int, ...], ...], what: str) -> Arra
 
 
 def indices(nodes: Any) -> tuple[int, ...]:
-    """Return indices of nodes as a tuple, or refuse what are none."""
+    """Return node indices as a tuple; DeclarationError if they are not integers."""
     array = np.atleast_1d(np.asarray(nodes))
     if array.ndim != 1 or not len(array) or not np.issubdtype(array.dtype, np.integer):
-        raise DeclarationError(f"a frame needs the indices of its nodes, counted from 0, not {nodes!r}")
+        raise DeclarationError(f"the nodes of a frame must be indices counted from 0, not {nodes!r}")
     return tuple(array.tolist())

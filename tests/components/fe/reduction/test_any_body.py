@@ -59,7 +59,7 @@ def test_any_body(case):
         body = reduce_body(M, K, nodes, frames=frames, hold=hold, basis=basis, modes=modes)
     except ac.DeclarationError as error:
         # Nodes at random may lie on a line, or leave nothing that moves.
-        said = ("lie on a line", "modes with mass", "static modes", "rigid motions of the body free")
+        said = ("collinear", "modes with mass", "static modes", "rigid-body motions free")
         if not any(words in str(error) for words in said):
             raise
         event("refused")
@@ -137,5 +137,8 @@ def test_the_file_is_the_body(tmp_path):
 def test_free_modes_can_meet_six_conditions():
     M, K, nodes = bodies.block()
     frames = {"left": bodies.face(nodes, 0, 0), "tip": [23]}
-    with pytest.raises(ac.DeclarationError, match="7 conditions hold the reference frame, and free modes can meet six"):
+    with pytest.raises(
+        ac.DeclarationError,
+        match="hold imposes 7 constraints on the reference frame, but free modes can satisfy only six",
+    ):
         reduce_body(M, K, nodes, frames=frames, hold={"left": "xyz", "tip": "z"}, basis="free", modes=9)

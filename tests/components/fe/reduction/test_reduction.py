@@ -328,7 +328,7 @@ def test_masses_may_be_missing():
     exact = eigh(K_aa - K_ab @ np.linalg.solve(K_bb, K_ab.T), spread[~light][:, ~light], eigvals_only=True)[6:]
     body = reduce_body(M, K, nodes, frames={}, modes=10)
     np.testing.assert_allclose(body.frequencies, hertz(exact[:10]), rtol=1e-9)
-    with pytest.raises(Exception, match=f"there are {len(exact)} modes with mass, fewer than modes={len(exact) + 1}"):
+    with pytest.raises(Exception, match=f"has only {len(exact)} modes with mass, but modes={len(exact) + 1}"):
         reduce_body(M, K, nodes, frames={}, modes=len(exact) + 1)
 
 
@@ -340,7 +340,7 @@ def test_a_bound_of_frequency_takes_all_below():
         np.testing.assert_allclose(body.frequencies, free[:k], rtol=1e-9)
     fixed = reduced("left", "craig-bampton", "average", frequency=1e3)
     assert fixed.n == 9
-    with pytest.raises(Exception, match="no mode lies below"):
+    with pytest.raises(Exception, match="no mode is below"):
         reduce_body(M, K, nodes, frames={}, frequency=1.0)
 
 
