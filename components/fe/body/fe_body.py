@@ -1,4 +1,4 @@
-"""FEBody: a solid body of any FE program, reduced to modes, in a floating frame."""
+"""FEBody: a solid body from any FE program, reduced to modes, in a floating frame of reference."""
 
 from __future__ import annotations
 
@@ -53,21 +53,22 @@ from components.world import World
 
 
 class FEBody(MovingBody):
-    """Body that deforms in a few modes, in a reference frame that moves freely; its frames have the names of its interfaces.
+    """Flexible body with modal deformation in a floating reference frame; its frames are named after the interfaces.
 
     Notes
     -----
-    Vlasenko, Kasper, Generation of equations of motion in reference frame formulation for FE models (2008), in the axes of
-    the reference frame: see `ModalInertia`. With U the displacement and theta the small rotation vector of a frame, the
-    frame is at X + U(q), turned by `rodrigues_rotation(theta(q))`, and its force f and torque t do the work of
-    U_q' f + theta_q' G' t on q. Deformations are small, and there is no geometric stiffening: the body may turn slowly against
-    its first frequency only. A frame that the reference frame holds is that frame, without equations of its own.
+    Vlasenko, Kasper, Generation of equations of motion in reference frame formulation for FE models (2008), in the axes
+    of the reference frame: see `ModalInertia`. With the displacement U and the small rotation vector theta of a frame,
+    the frame is at X + U(q), rotated by `rodrigues_rotation(theta(q))`, and its force f and torque t give the modal
+    force U_q' f + theta_q' G' t. Deformations are small, without geometric stiffening, so the angular velocity must
+    stay well below the first frequency. An interface to which the reference frame is fixed is that frame, without
+    equations.
     """
 
     ends = ("frame_a", "frame_b")
     without_soft = 'initial="free"'
     reduced: Any = structural(
-        "the body", cls=ReducedBody, doc="What `reduce_body` returns, or the .npz file to which it was saved."
+        "reduced body", cls=ReducedBody, doc="Result of `reduce_body`, or the .npz file to which it was saved."
     )
     modes: int = structural(
         "number of modes",
@@ -76,61 +77,60 @@ class FEBody(MovingBody):
         minimum=0,
         maximum=lambda s: s.reduced.n,
         refine=lambda s: s.adaptive,
-        doc="The first ones of the body are taken, all if not given; 0 leaves a rigid body.",
+        doc="The first modes of the body, by default all; with 0 the body is rigid.",
     )
     adaptive: bool = structural(
         "whether accuracy chooses the number of modes",
         default=False,
         choices=(True, False),
-        doc="simulate(accuracy=...) then chooses it.",
+        doc="If True, simulate(accuracy=...) chooses the number.",
     )
     stiffness: Scalar = parameter("factor of the stiffness", unit="1", default=1, positive=True)
     damping_ratio: Scalar = parameter(
-        "damping of every mode, as a part of the critical one",
+        "damping ratio of every mode",
         unit="1",
         default=0,
         minimum=0,
-        doc="It comes on top of the damping that the reduced body has.",
+        doc="Added to the damping of the reduced body.",
     )
     initial: str = structural(
         "state at the start",
         default="undeformed",
         choices=("undeformed", "static", "free"),
-        doc="undeformed: q = 0 and der(q) = 0; static: der(q) = 0 and der(der(q)) = 0; free: nothing. A start "
-        "in steady state, where the flag `initial` is 0, takes the shape of rest instead of q = 0.",
+        doc="undeformed: q = 0 and der(q) = 0; static: der(q) = 0 and der(der(q)) = 0; free: no condition. A steady-state "
+        "start, with the flag `initial` at 0, replaces q = 0 by equilibrium.",
     )
     check_range: bool = structural(
-        "whether a run warns where a linear body is not valid",
+        "whether a run warns outside the range of a linear body",
         default=True,
         choices=(True, False),
-        doc="False suppresses the warnings that the body turns too fast, and that it is welded by the average of its nodes.",
+        doc="False suppresses the warnings of fast rotation and of welded frames that average their nodes.",
     )
     inertia: str = effect(
         "inertia of the deformed body",
         default="second_order",
         choices=("second_order", "first_order", "constant", "reconfigured"),
         tries=("second_order", "first_order", "constant"),
-        doc="second_order: all that the displacements imply, as far as the body knows it; first_order: mass matrix to first "
-        "order in q; constant: that of the undeformed body, in which energy is not conserved; reconfigured: the limit of short "
-        "steps in reconfigured inertial frames, of a body with mean axes that nothing guides, in which energy is not conserved "
-        "either.",
+        doc="second_order: all terms of the displacements, if the body has their integrals; first_order: mass matrix to first "
+        "order in q; constant: that of the undeformed body, which does not conserve energy; reconfigured: the limit of short "
+        "steps in reconfigured inertial frames, for a free body with mean axes, which does not conserve energy either.",
     )
     centrifugal: bool = effect(
         "centrifugal forces of the deformation",
         default=True,
-        doc="They act on the deformation and because of it, with the square of the angular velocity; those of the undeformed "
-        "body always act.",
+        doc="The terms in the square of the angular velocity that depend on the deformation; those of the undeformed body are "
+        "always included.",
     )
     coriolis: bool = effect(
-        "Coriolis forces of the rates of deformation",
+        "Coriolis forces of the deformation rates",
         default=True,
-        doc="They go with the product of angular velocity and rate of deformation.",
+        doc="The terms in the product of angular velocity and deformation rate.",
     )
     damping: bool = effect("damping of the modes", default=True)
     weight: bool = effect("weight", default=True)
     world: World = outer(World)
     q: Any = variable(
-        "amplitudes of the modes, which have a modal mass in kg",
+        "modal coordinates, with modal masses in kg",
         shape=lambda s: (s.modes,),
         unit="m",
         select=PREFER,
@@ -140,7 +140,7 @@ class FEBody(MovingBody):
         "der(q)", shape=lambda s: (s.modes,), unit="m/s", select=PREFER, nominal=lambda s: nominal(s._body)[1]
     )
     qdd: Any = variable("der(qd)", shape=lambda s: (s.modes,), unit="m/s2")
-    # Unknowns of their own, as otherwise every mode would meet every other one in the derivatives of their power.
+    # Separate unknowns: otherwise the Jacobian of the modal forces would couple every mode with every other one.
     frame_force: Any = variable(
         "forces on the frames, resolved in the reference frame", shape=lambda s: (len(s._moving), 3), unit="N"
     )
@@ -150,12 +150,12 @@ class FEBody(MovingBody):
 
     @port
     def ref(self) -> Frame | None:
-        """Reference frame, where no interface is it."""
+        """Reference frame, if it is not an interface."""
         return None if self._held else self.free_frame()
 
     @ports
     def frames(self) -> dict[str, Frame]:
-        """Frames of the interfaces, by their names."""
+        """Frames of the interfaces by name."""
         return {i.name: self.free_frame() if i is self._held else Frame() for i in self._body.interfaces}
 
     @property
@@ -173,8 +173,8 @@ class FEBody(MovingBody):
         if self._in_steps:
             if not is_root(ref):
                 raise DeclarationError(
-                    'inertia="reconfigured" is of a body that nothing guides, and this one is held by what it is connected '
-                    'to: take "second_order", "first_order" or "constant", or connect it by forces alone'
+                    'inertia="reconfigured" needs a free body, but the connections constrain this one. Do this: use '
+                    '"second_order", "first_order" or "constant", or connect the body by forces only'
                 )
             check_free(self._body, 'inertia="reconfigured" needs')
         gravity = self.world.acceleration(self._centre()) if self.weight else np.zeros(3)
@@ -232,9 +232,9 @@ class FEBody(MovingBody):
         return dot(self._rates(), self._drag())
 
     def shapes(self):
-        """The skin of its mesh, or the box of its inertia and its frames where it knows no mesh."""
+        """Surface of the mesh, or without a mesh the box of equal inertia and the frames."""
         at = pose(self.reference)
-        if found := mesh(self.reduced.nodal, at, self.q):  # `_body` may be an equal one without nodes
+        if found := mesh(self.reduced.nodal, at, self.q):  # the cached `_body` may be an equal body without nodes
             yield found
         else:
             yield from (box_of_inertia(self._body, at), *(geometry.Sphere(pose(f)) for f in self.frames.values()))
@@ -245,17 +245,17 @@ class FEBody(MovingBody):
 
     @property
     def _held(self) -> Interface | None:
-        """The interface that is the reference frame, and has its axes."""
+        """Interface that coincides with the reference frame, axes included."""
         return next((i for i in self._body.interfaces if i.still and not i.turned), None)
 
     @property
     def _moving(self) -> list[tuple[Interface, Any]]:
-        """Interfaces beside the reference frame, and their frames."""
+        """Interfaces other than the reference frame, with their frames."""
         return [(i, self.frames[i.name]) for i in self._body.interfaces if i is not self._held]
 
     @property
     def _points(self) -> list[tuple[Interface, Any]]:
-        """Interfaces that hold not every rotation, and their frames."""
+        """Interfaces that do not define all rotations, with their frames."""
         return [(i, self.frames[i.name]) for i in self._body.interfaces if not i.turns]
 
     @property
@@ -267,7 +267,7 @@ class FEBody(MovingBody):
 
     @property
     def _in_steps(self) -> bool:
-        """Whether the body moves as by short steps in inertial frames."""
+        """True if the inertia is that of short steps in inertial frames."""
         return self.inertia == "reconfigured"
 
     def _elastic(self) -> Any:
@@ -280,7 +280,7 @@ class FEBody(MovingBody):
         return self._body.D @ rates + critical * (critical_damping(self._body) @ rates)
 
     def _rates(self) -> Any:
-        """Rates of the modes that damping resists."""
+        """Modal rates on which damping acts."""
         return self._inertia.rates(self.reference.R.w)
 
     def _centre(self) -> Any:

@@ -1,4 +1,4 @@
-"""Inertia forces of a body that deforms in modes, in a moving frame: every coupling of rigid motion and deformation."""
+"""Inertia forces of a body with modal deformation in a moving frame, with all couplings to its rigid motion."""
 
 from __future__ import annotations
 
@@ -11,41 +11,41 @@ import numpy as np
 from acausal import as_expr, cross, dot, quantity
 from components.fe.reduction.reduced_body import ReducedBody
 
-# A symmetric matrix is kept as two entries of its diagonal, those beside it, and its trace: the trace of B is M, which has
-# few entries where modes are orthogonal, so that five and not six products of full matrices are left.
+# Entries that represent a symmetric matrix together with its trace. The trace of B is M, which is sparse for orthogonal
+# modes, so that five instead of six products of full matrices remain.
 PAIRS = ((0, 0), (1, 1), (0, 1), (0, 2), (1, 2))
-AXES = ((1, 2), (2, 0), (0, 1))  # entries of an antisymmetric one, by the axis that it turns about
+AXES = ((1, 2), (2, 0), (0, 1))  # entries of an antisymmetric matrix, by axis
 
 
 @dataclass(frozen=True)
 class ModalInertia:
     """Inertia of a body of n modes in a frame with acceleration a, angular acceleration z and angular velocity w.
 
-    A point of the body is at r = r_0 + phi q, resolved in the frame, and its acceleration is
-    a + z x r + w x (w x r) + 2 w x r' + r''. The forces are integrals of that over the mass, alone (the force), as
-    r x (the moment) and as phi' (those of the modes). With the first moments s(q) of the mass, the second moments P(q) and
-    J = trace(P) E - P, half their derivatives g_b, the moments H_b(q) of the modes, and W = w w' - w^2 E,
+    A point of the body is at r = r_0 + phi q, resolved in the frame, with acceleration a + z x r + w x (w x r) + 2 w x
+    r' + r''. Its mass integrals, alone, with r x and with phi', give the force, the moment and the modal forces. With
+    the first moments s(q) of the mass, the second moments P(q) and J = trace(P) E - P, half their derivatives g_b, the
+    moments H_b(q) of the modes, and W = w w' - w^2 E,
 
     force = m a + z x s + w x (w x s) + 2 w x s' + s'',
     moment = s x a + J z + w x J w + J' w + w x (H q') + H q'',
     row b = S_b . a + H_b . z + W : g_b + 2 w . H_b' + (M q'')_b,
 
-    which is Vlasenko, Kasper 2008, equations 49 to 98, in the axes of the frame and with the sign of their equation 77 put
-    right. H is linear in q with antisymmetric coefficients, so that H' q' = 0.
+    which is Vlasenko, Kasper 2008, equations 49 to 98, in the axes of the frame and with the sign of their equation 77
+    corrected. H is linear in q with antisymmetric coefficients, so that H' q' = 0.
 
     Parameters
     ----------
     body : ReducedBody
-        Integrals over the mass of the undeformed body and its modes.
+        Mass integrals of the undeformed body and its modes.
     q, qd, qdd : Expr, shape (n,)
-        Amplitudes of the modes in m, and derivatives.
+        Modal coordinates in m, and derivatives.
     order : str
-        "second_order": everything that u = phi q implies, where the body knows it. "first_order": mass matrix to first
-        order in q; energy is conserved as well. "constant": s, P and H of the undeformed body, valid for
-        amplitudes that change none of them; it does not conserve energy.
+        "second_order": all terms of u = phi q, if the body has their integrals. "first_order": mass matrix to first
+        order in q; it conserves energy as well. "constant": s, P and H of the undeformed body, for negligible
+        amplitudes; it does not conserve energy.
     centrifugal, coriolis : bool
-        Whether q has a part in what goes with the square of w, where the undeformed body always has one, and whether what
-        goes with w and q' counts.
+        Whether to include the terms in w^2 that depend on q (those of the undeformed body are always included), and the
+        terms in w and q'.
     """
 
     body: ReducedBody
@@ -57,7 +57,7 @@ class ModalInertia:
     coriolis: bool = True
 
     def forces(self, a: Any, z: Any, w: Any) -> tuple[Any, Any, Any]:
-        """Force, moment about the origin, and forces of inertia on the modes.
+        """Return force, moment about the origin, and modal inertia forces.
 
         Parameters
         ----------
@@ -90,44 +90,44 @@ class ModalInertia:
         return quantity(self.body.mass, "kg")
 
     def first(self) -> Any:
-        """First moment s of the mass in kg.m, shape (3,), resolved in the frame."""
+        """Return the first moment s of the mass in kg.m, shape (3,), resolved in the frame."""
         rest = quantity(self.body.first_moment, "kg.m")
         return rest if self.order == "constant" else rest + self.body.modal_first @ self.q
 
     def relative_momentum(self) -> Any:
-        """Momentum of the rates of the modes, in kg.m/s, shape (3,), resolved in the frame."""
+        """Return the momentum of the modal rates in kg.m/s, shape (3,), resolved in the frame."""
         return self.body.modal_first @ self.qd
 
     def rates(self, w: Any) -> Any:
-        """Rates of the modes that their damping resists, in m/s, shape (n,), with the angular velocity of the frame."""
+        """Return the modal rates on which damping acts in m/s, shape (n,), at the angular velocity w of the frame."""
         return self.qd
 
     def momentum(self) -> Any:
-        """Momenta of the rates of the modes alone, in kg.m/s, shape (n,)."""
+        """Return the modal momenta M q' in kg.m/s, shape (n,)."""
         return self.body.M @ self.qd
 
     def kinetic_energy(self, v: Any, w: Any) -> Any:
-        """Kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
+        """Return the kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
         translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + self.relative_momentum())
         spin = dot(w, self._spin(self.qd))
         return (translation + dot(w, self._tensor @ w) + 2 * spin + dot(self.qd, self.momentum())) / 2
 
     def _centrifugal(self, w: Any) -> Any:
-        """Forces W : g_b on the modes."""
+        """Return the modal forces W : g_b."""
         return self._turned(w, self._slopes if self.centrifugal else self._straight)
 
     def _turned(self, w: Any, slopes: list[Any]) -> Any:
-        """Sum of the products of W and half the derivatives of the second moments."""
+        """Return the products W : g_b, with g_b given as PAIRS and trace."""
         x, y, z = (w[k] * w[k] for k in range(3))
         W = (x - z, y - z, 2 * (w[0] * w[1]), 2 * (w[0] * w[2]), 2 * (w[1] * w[2]), -(x + y))
         return sum((factor * g for factor, g in zip(W, slopes, strict=True)), self._none)
 
     def _spin(self, rates: Any) -> Any:
-        """Sum of the moments H_b, each with a rate of its mode, shape (3,)."""
+        """Return the sum of H_b times the rate of mode b, shape (3,)."""
         return as_expr([dot(H, rates) for H in self._modal_moments])
 
     def _along(self, moments: list[Any], w: Any) -> Any:
-        """Moments of the modes about w, shape (n,)."""
+        """Return the components of the modal moments along w, shape (n,)."""
         return sum((H * w[k] for k, H in enumerate(moments)), self._none)
 
     @property
@@ -136,7 +136,7 @@ class ModalInertia:
 
     @cached_property
     def _straight(self) -> list[Any]:
-        """Half the derivatives of the second moments where the body is not deformed: PAIRS and trace, each (n,)."""
+        """Half the derivatives of the second moments of the undeformed body: PAIRS and trace, each (n,)."""
         A = self.body.modal_second
         return [as_expr(v) for v in (*((A[:, i, j] + A[:, j, i]) / 2 for i, j in PAIRS), np.trace(A, axis1=1, axis2=2))]
 
@@ -185,6 +185,6 @@ class ModalInertia:
 
 
 def _tensor(P: Any) -> Any:
-    """Inertia tensor of second moments, given as PAIRS and trace."""
+    """Return the inertia tensor of second moments given as PAIRS and trace."""
     xx, yy, xy, xz, yz, trace = P
     return as_expr([[trace - xx, -xy, -xz], [-xy, trace - yy, -yz], [-xz, -yz, xx + yy]])

@@ -1,4 +1,4 @@
-"""Results at nodes: motion, stresses, and files for ParaView, from the coordinates q of a result; no part of any model."""
+"""Nodal results after a run: motion, stresses and ParaView files, from the modal coordinates q of a result."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class NodalResult:
     body : str
         Path of the FEBody in the model, such as "rod".
     reduced : ReducedBody, str or Path
-        The body that the model has, with its nodes, or the file to which it was saved.
+        The body of the model, with nodes, or the file to which it was saved.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class NodalResult:
     Raises
     ------
     DeclarationError
-        If there is no such FEBody in the result, or the reduced body is another one or has no nodes.
+        If the result has no such FEBody, or the reduced body is another one or has no nodes.
 
     Examples
     --------
@@ -55,27 +55,25 @@ class NodalResult:
     def __init__(self, result: Result, body: str, reduced: ReducedBody | str | Path) -> None:
         found = reduced if isinstance(reduced, ReducedBody) else ReducedBody.load(reduced)
         if found.nodal is None:
-            raise DeclarationError("this reduced body has no nodes: save(path, nodal=True) keeps them, pickles do not")
-        if f"{body}.q" not in result:
             raise DeclarationError(
-                f"there is no FEBody `{shown_name(body)}` in the result: it has no {shown_name(body)}.q"
+                "this reduced body has no nodes; save(path, nodal=True) keeps them, pickling does not"
             )
+        if f"{body}.q" not in result:
+            raise DeclarationError(f"the result has no FEBody `{shown_name(body)}`: {shown_name(body)}.q is missing")
         self.time = result.time
         n = result[f"{body}.q"].reshape(self.time.size, -1).shape[1]
         frames = [f"{body}.{name}" for name in ("ref", *(i.name for i in _held(found.first(min(n, found.n)))))]
         frame = next((name for name in frames if f"{name}.r_0" in result), None)
         if n > found.n or frame is None:
             raise DeclarationError(
-                f"`{shown_name(body)}` is another body than the reduced one: {n} modes, {found.n} of it"
+                f"`{shown_name(body)}` differs from the reduced body: it has {n} modes, the reduced body {found.n}"
             )
         if _is_another(found.first(n), result.tree, body):
-            raise DeclarationError(
-                f"`{shown_name(body)}` is another body than the reduced one: its mass, frames or stiffness differ"
-            )
+            raise DeclarationError(f"`{shown_name(body)}` differs from the reduced body in mass, frames or stiffness")
         self._q, self._qd, self._qdd = (
             result[f"{body}.{name}"].reshape(self.time.size, n) for name in ("q", "qd", "qdd")
         )
-        # Stresses go with the stiffness that the model gives the body, as FEBody does.
+        # Stresses scale with the parameter `stiffness` of the FEBody.
         stiffness = f"{body}.stiffness"
         self._stiff_q = self._q * (result[stiffness][:, None] if stiffness in result else 1.0)
         self._r_0, self._v, self._a, self._z = (result[f"{frame}.{name}"] for name in ("r_0", "v", "a", "z"))
@@ -84,7 +82,7 @@ class NodalResult:
 
     @cached_property
     def cells(self) -> dict[str, np.ndarray]:
-        """Elements by meshio's names of their kinds, as rows of the nodes."""
+        """Elements by meshio's names of their types, as rows of the nodes."""
         return {kind: np.asarray(cells) for kind, cells in self._nodal.cells.items()}
 
     def displacement(self, nodes: Sequence[int] | None = None, axes: str = "body") -> np.ndarray:
@@ -95,7 +93,7 @@ class NodalResult:
         nodes : sequence of int, optional
             Rows of nodes, counted from 0; all if not given.
         axes : "body" or "world"
-            In which the displacements are resolved.
+            Axes in which the displacements are resolved.
 
         Returns
         -------
@@ -105,19 +103,19 @@ class NodalResult:
         return self._resolved(self._moved(self._q, nodes), axes)
 
     def position(self, nodes: Sequence[int] | None = None, axes: str = "world") -> np.ndarray:
-        """Return places, from the world's origin in its axes, or from the reference frame's in its own; see `displacement`."""
+        """Return positions in m relative to the origin of the world or of the reference frame; see `displacement`."""
         place = self._places(nodes)
         if axes == "body":
             return place
         return self._r_0[:, None] + self._resolved(place, axes)
 
     def velocity(self, nodes: Sequence[int] | None = None, axes: str = "world") -> np.ndarray:
-        """Return velocities relative to the world, v + w x r + u', in m/s; see `displacement`."""
+        """Return absolute velocities v + w x r + u' in m/s; see `displacement`."""
         w, rate = self._w[:, None], self._moved(self._qd, nodes)
         return self._resolved(self._v[:, None] + np.cross(w, self._places(nodes)) + rate, axes)
 
     def acceleration(self, nodes: Sequence[int] | None = None, axes: str = "world") -> np.ndarray:
-        """Return accelerations relative to the world, a + z x r + w x (w x r) + 2 w x u' + u'', in m/s2; see `displacement`."""
+        """Return absolute accelerations a + z x r + w x (w x r) + 2 w x u' + u'' in m/s2; see `displacement`."""
         w, r = self._w[:, None], self._places(nodes)
         rate, second = self._moved(self._qd, nodes), self._moved(self._qdd, nodes)
         spin = np.cross(self._z[:, None], r) + np.cross(w, np.cross(w, r))
@@ -126,29 +124,31 @@ class NodalResult:
     def stress(self, *, E: float, nu: float, at: str = "points") -> Any:
         """Return stresses of the elements in the axes of the body.
 
-        Stresses of few modes are less exact than displacements: under a force on a frame, static modes (a Craig-Bampton
-        basis) hold what it does beside it.
+        With few modes, stresses are less accurate than displacements: the stresses near a loaded frame need the static
+        modes of a Craig-Bampton basis.
 
         Parameters
         ----------
         E, nu : float
-            Modulus of elasticity in Pa and Poisson's ratio, those of the matrices; the factor `stiffness` of the FEBody counts.
+            Young's modulus in Pa and Poisson's ratio of the matrices; the factor `stiffness` of the FEBody is applied.
         at : "points", "elements" or "nodes"
-            At the Barlow points of each element, where they are best; their mean over each element; or at the nodes, linear
-            through the points and averaged over the elements of a node.
+            At the Barlow points of each element, where they are most accurate; the element means; or at the nodes,
+            extrapolated linearly from the points and averaged over adjacent elements.
 
         Returns
         -------
-        dict from str to array, shape (times, elements, points, 6) or (times, elements, 6), or array, shape (times, nodes, 6)
+        dict from str to array, shape (times, elements, points, 6) or (times, elements, 6), or array, shape (times,
+        nodes, 6)
             In Pa: xx, yy, zz, xy, yz, zx.
 
         Raises
         ------
         DeclarationError
-            If the body knows no elements (of matrices alone there are none), or of kinds without stresses.
+            If the body has no elements, as when reduced from matrices only, or stresses of an element type are not
+            implemented.
         """
         if at not in ("points", "elements", "nodes"):
-            raise DeclarationError(f'stresses are given at="points", "elements" or "nodes", not {at!r}')
+            raise DeclarationError(f'at must be "points", "elements" or "nodes", not {at!r}')
         modal = self._modal_stress(E, nu)
         if at == "points":
             return {kind: np.einsum("epsb,tb->teps", m, self._stiff_q, optimize=True) for kind, m in modal.items()}
@@ -166,21 +166,22 @@ class NodalResult:
         E: float | None = None,
         nu: float | None = None,
     ) -> list[Path]:
-        """Write the moving body for ParaView: a .vtu file for each time, NAME-0000.vtu, ..., and NAME.pvd with the times.
+        """Write the motion for ParaView: a file NAME-0000.vtu, ... for each time, and NAME.pvd with the times.
 
-        Points are the nodes in the world; data at them are the displacement relative to the reference frame and the velocity,
-        in the axes of the world, and where E and nu are given the stress in the axes of the body and von Mises's.
+        Points are the node positions in the world. Point data are the displacement relative to the reference frame and
+        the velocity, resolved in the world, and with E and nu the stress, resolved in the body, and the von Mises
+        stress.
 
         Parameters
         ----------
         path : str or Path
             NAME.vtu.
         every : int
-            Takes every k-th point of time.
+            Write every k-th time only.
         scale : float
-            Factor of the displacements in the picture.
+            Magnification of the displacements.
         E, nu : float, optional
-            Modulus of elasticity in Pa and Poisson's ratio, for stresses.
+            Young's modulus in Pa and Poisson's ratio, for stresses.
 
         Returns
         -------
@@ -190,12 +191,12 @@ class NodalResult:
         Raises
         ------
         DeclarationError
-            If meshio is not installed (`pip install 'acausal[fe]'`), or there are no stresses.
+            If meshio is not installed (`pip install 'acausal[fe]'`), or stresses are not available.
         ExportError
             If a file cannot be written.
         """
         if every < 1 or (E is None) != (nu is None):
-            raise DeclarationError("write_vtu takes every= a whole number from 1 on, and E and nu both or neither")
+            raise DeclarationError("write_vtu needs a positive integer every=, and both or neither of E and nu")
         target = Path(path).with_suffix(".pvd")
         check_writable(target)
         steps = range(0, self.time.size, every)
@@ -214,7 +215,7 @@ class NodalResult:
         return [target, *files]
 
     def _picture(self, step: int, scale: float, stresses: np.ndarray | None) -> tuple[Any, ...]:
-        """Points, elements and data at points of one time."""
+        """Return points, elements and point data at one time."""
         T, field = self._T[step], self._nodal
         u, rate = field.modes @ self._q[step], field.modes @ self._qd[step]
         velocity = self._v[step] + np.cross(self._w[step], field.nodes + u) + rate
@@ -235,20 +236,20 @@ class NodalResult:
             return slice(None)
         rows, count = np.atleast_1d(np.asarray(nodes)), len(self._nodal.nodes)
         if not np.issubdtype(rows.dtype, np.integer) or ((rows < 0) | (rows >= count)).any():
-            raise DeclarationError(f"nodes are rows from 0 to {count - 1}, not {nodes!r}")
+            raise DeclarationError(f"nodes must be rows from 0 to {count - 1}, not {nodes!r}")
         return rows
 
     def _resolved(self, vectors: np.ndarray, axes: str) -> np.ndarray:
         if axes not in AXES:
-            raise DeclarationError(f'axes are "world" or "body", not {axes!r}')
+            raise DeclarationError(f'axes must be "world" or "body", not {axes!r}')
         return vectors if axes == "body" else np.einsum("tij,tki->tkj", self._T, vectors)
 
     def _modal_stress(self, E: float, nu: float) -> dict[str, np.ndarray]:
-        """Stresses at the points of each element for each mode, shape (elements, points, 6, modes)."""
+        """Return the modal stresses at the points of the elements, shape (elements, points, 6, modes)."""
         field = self._nodal
         if not self.cells:
             raise DeclarationError(
-                "this body knows no elements, as of matrices alone: stresses need a mesh, a box or a deck"
+                "this body has no elements, as it was reduced from matrices only; stresses need a mesh, a box or an input deck"
             )
         found = {}
         for kind, cells in self.cells.items():
@@ -257,7 +258,7 @@ class NodalResult:
         return found
 
     def _at_nodes(self, modal: dict[str, np.ndarray]) -> np.ndarray:
-        """Stresses at the nodes for each mode, shape (nodes, 6, modes)."""
+        """Return the modal stresses at the nodes, shape (nodes, 6, modes)."""
         count, (*_, n) = len(self._nodal.nodes), self._nodal.modes.shape
         total, times = np.zeros((count, len(COMPONENTS), n)), np.zeros(count)
         for kind, stresses in modal.items():
@@ -267,7 +268,7 @@ class NodalResult:
 
 
 def von_mises(stress: np.ndarray) -> np.ndarray:
-    """Return von Mises's equivalent stress in Pa of stresses of shape (..., 6): xx, yy, zz, xy, yz, zx."""
+    """Return the von Mises stress in Pa of stresses xx, yy, zz, xy, yz, zx, shape (..., 6)."""
     x, y, z, *shear = np.moveaxis(stress, -1, 0)
     return np.sqrt(((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) / 2 + 3 * sum(s**2 for s in shear))
 
@@ -277,7 +278,7 @@ def _held(reduced: ReducedBody) -> list[Any]:
 
 
 def _is_another(reduced: ReducedBody, tree: Any, path: str) -> bool:
-    """Whether the model has another body at a path; a result that came from another process does not know."""
+    """Return whether the model has another body at the path; False if the result came from another process."""
     part = tree
     for name in re.findall(r"\w+", path):
         part = part[int(name)] if isinstance(part, list) else getattr(part, name, None)
@@ -286,11 +287,13 @@ def _is_another(reduced: ReducedBody, tree: Any, path: str) -> bool:
 
 
 def _write(path: Path, picture: tuple[Any, ...]) -> None:
-    """Write a .vtu file, whole or not at all."""
+    """Write a .vtu file atomically."""
     try:
         import meshio
     except ImportError:
-        raise DeclarationError("a .vtu file needs meshio: python -m pip install 'acausal[fe]'.") from None
+        raise DeclarationError(
+            "writing .vtu files needs meshio. Do this: python -m pip install 'acausal[fe]'."
+        ) from None
     points, cells, data = picture
     cells = cells or {"vertex": np.arange(len(points))[:, None]}
     with TemporaryDirectory() as folder, whole(path, "wb") as out:

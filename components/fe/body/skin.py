@@ -1,4 +1,4 @@
-"""What a body of finite elements looks like: the skin of its mesh, which deforms with its modes."""
+"""Shape of an FE body in pictures: the surface of its mesh, deformed by its modes."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ from components.fe.reduction.reduced_body import ReducedBody
 
 
 def skin(nodal: NodalField) -> tuple[Array, Array]:
-    """Return the nodes of the skin of a mesh, and its triangles between them, outward anticlockwise.
+    """Return the nodes and triangles of the surface of a mesh, anticlockwise seen from outside.
 
-    Faces of one element alone are the skin. It goes through the corners: bent edges of quadratic elements are straight.
+    The surface consists of the faces that belong to one element only. It connects corners: curved edges become
+    straight.
 
     Returns
     -------
     nodes : array of int, shape (n,)
-        Rows of the nodes, increasing.
+        Rows of the nodes, ascending.
     triangles : array of int, shape (m, 3)
-        Places in `nodes`; m is 0 where no solid elements are known.
+        Indices into `nodes`; m is 0 if no solid elements are known.
     """
     found = [np.zeros((0, 4), dtype=np.int64)]
     for kind, cells in nodal.cells.items():
@@ -32,7 +33,7 @@ def skin(nodal: NodalField) -> tuple[Array, Array]:
             corners = np.asarray(cells)[:, : 1 + max(max(face) for face in faces)]
             found.append(_outward(corners[:, faces].reshape(-1, 4), corners.repeat(len(faces), axis=0), nodal.nodes))
     every = np.concatenate(found)
-    # Faces are one if they have the same corners, of which a triangle has one twice, in any place.
+    # Equal faces have the same set of corners; the repeated corner of a triangle may differ.
     ordered = np.sort(every, axis=1)
     ordered[:, 1:][ordered[:, 1:] == ordered[:, :-1]] = -1
     _, first, times = np.unique(np.sort(ordered, axis=1), axis=0, return_index=True, return_counts=True)
@@ -44,7 +45,7 @@ def skin(nodal: NodalField) -> tuple[Array, Array]:
 
 
 def mesh(nodal: NodalField | None, at: geometry.Pose, q: Any) -> geometry.Mesh | None:
-    """Return the skin of a body with coordinates q of its first modes; None if it knows no solid elements."""
+    """Return the surface of a body deformed by its modal coordinates q; None if no solid elements are known."""
     if nodal is None or not FACES.keys() & nodal.cells.keys():
         return None
     nodes, triangles = skin(nodal)
@@ -54,14 +55,14 @@ def mesh(nodal: NodalField | None, at: geometry.Pose, q: Any) -> geometry.Mesh |
 
 
 def box_of_inertia(body: ReducedBody, at: geometry.Pose) -> geometry.Box:
-    """Return the homogeneous box with the mass and moments of inertia of an undeformed body: m l^2 / 12 along its edges."""
+    """Return the homogeneous box with the mass and moments of inertia of the undeformed body."""
     centre = body.first_moment / body.mass
     squares, axes = np.linalg.eigh(body.second_moment / body.mass - np.outer(centre, centre))
     return geometry.Box(at, centre, np.sqrt(12 * np.maximum(squares, 0)), axes.T)
 
 
 def _outward(faces: Array, corners: Array, places: Array) -> Array:
-    """Turn faces round that are seen clockwise from outside their element, whose corners are given for each."""
+    """Reverse the faces that are clockwise seen from outside their element, given by its corners."""
     a, b, c, d = (places[faces[:, k]] for k in range(4))
     normal = np.cross(c - a, d - b)
     inward = np.einsum("ij,ij->i", normal, (a + b + c + d) / 4 - places[corners].mean(axis=1)) < 0

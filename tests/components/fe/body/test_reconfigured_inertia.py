@@ -195,7 +195,7 @@ class Held(Model):
 
 @pytest.mark.parametrize("joint", ["ball", "hinge"])
 def test_a_body_on_a_joint_is_refused(joint):
-    with pytest.raises(ac.DeclarationError, match="nothing guides, and this one is held") as caught:
+    with pytest.raises(ac.DeclarationError, match="needs a free body, but the connections constrain") as caught:
         ac.compile(Held(joint=joint))
     assert "body" in str(caught.value)
 
