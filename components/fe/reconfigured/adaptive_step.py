@@ -1,7 +1,8 @@
-"""Steps whose size follows from their error: pairs of steps of order 4 against one of twice the size.
+"""Step size control by step doubling: two steps of order 4 against one of twice the size (Richardson extrapolation).
 
-Pairs of orders 5 and 4 have less error, but follow undamped vibrations less far: that of Dormand and Prince with 7 evaluations to
-dt omega = 1.0, a pair with 12 of them to 2 x 2.83; and fast vibrations bound the steps of most bodies.
+Embedded pairs of orders 5 and 4 have smaller errors, but a smaller stability limit for undamped vibrations, which
+bounds the steps of most bodies: dt omega = 1.0 for Dormand-Prince with 7 evaluations, 2 x 2.83 for two steps with 12
+evaluations.
 """
 
 from __future__ import annotations
@@ -22,34 +23,36 @@ from components.fe.reconfigured.step_inputs import Inputs
 from components.fe.reconfigured.step_limits import BELOW, MOST, WHOLE, bounds, diverged, limit
 from components.fe.reconfigured.steps import Loads, State, corrected
 
-# Two steps of order 4 have 1 / 15 of the difference to one of twice the size as their error.
+# Error of two steps of order 4, relative to their difference from one step of twice the size.
 RICHARDSON = 1 / 15
-# The error in proportion to the time goes with the step to the power of 4; the aim is what is below the tolerance by a margin,
-# and a step changes by no more than that between two blocks.
+# Controller: the error per unit time scales with the step to the power of 4; AIM is the safety factor, LEAST and GROWTH
+# bound the change of the step between two blocks.
 POWER, AIM, LEAST, GROWTH = -1 / 4, 0.8, 0.2, 2.0
-# Of a run: a pair that is shorter may err by as much as one of this length, or none could pass a jump of a load. One of this part
-# of the tolerance is taken whatever its error: a load that jumps in it does less in it than that of what it does in the run.
+# Length of a pair relative to the run: shorter pairs may have the error of one of this length, as otherwise none could
+# pass a load jump. A pair shorter than SHARE times the tolerance of the run is accepted with any error, because the
+# impulse of a load within it is that small.
 SHARE = 1e-3
-# Of a motion that deflects the body by DEFLECTION of its size at its first frequency: less of it is rest, where rounding is all.
+# Speed that counts as rest, relative to a vibration with amplitude DEFLECTION at the first frequency: below it,
+# round-off dominates the error.
 REST = 1e-6
-# Of a run of a rigid body, whose steps no frequency bounds: the first one.
+# First step of a rigid body relative to the run: no frequency bounds it.
 FIRST = 1e-2
-# Pairs that are taken without Python in between: with so many it has about a tenth of the time, and as many are taken in vain
-# where the first of them is too long.
+# Longest block of pairs evaluated in one call: Python then takes a tenth of the time. If the first pair of a block
+# fails, the others are wasted.
 LONGEST = 32
 
 
 def pair(body: FreeModes, maps: tuple[Array, Array], stop_time: float, x: Any, u: Any) -> tuple[Any, Any]:
-    """Two steps and one of twice the size.
+    """Take two steps, and one of twice the size.
 
     Parameters
     ----------
     body : FreeModes
         The body.
     maps : two arrays
-        Of its loads, see `Inputs`.
+        Maps of its loads, see `Inputs`.
     stop_time : float
-        Time of the run in s, in which errors of places are as large as those of speeds.
+        Length of the run in s, which converts errors of positions to errors of speeds.
     x : Expr, shape (15 + 2 N,)
         State at the start.
     u : Expr
@@ -58,8 +61,8 @@ def pair(body: FreeModes, maps: tuple[Array, Array], stop_time: float, x: Any, u
     Returns
     -------
     state, values : Expr
-        State after the second step; v' at the start, the state after the first step, v' there, and squares of speeds as
-        `_Sizes` needs them.
+        State after the second step; v' at the start, the state after the first step, v' there, and the squared speeds
+        that `_Sizes` needs.
     """
     size = 3 + sum(part.shape[1] for part in maps)
     dt, instants = u[0], [u[1 + k * size : 1 + (k + 1) * size] for k in range(5)]
@@ -81,12 +84,12 @@ def pair(body: FreeModes, maps: tuple[Array, Array], stop_time: float, x: Any, u
 
 
 def _turn(R: Any) -> Any:
-    """Rotation vector of a small turn."""
+    """Return the rotation vector of a small rotation."""
     return as_expr([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
 
 
 def _inner(body: FreeModes, w: Any, v: Any, q: Any) -> Any:
-    """Square of the mean speed of the points of a body beside its translation, the amplitudes as speeds of the same energy."""
+    """Return the mean square speed of rotation and deformation; elastic energy counts as kinetic energy."""
     found = w @ (as_expr(body.inertia) @ w)
     if body.body.n:
         found = found + v @ (as_expr(body.body.M) @ v) + q @ (as_expr(body.body.K) @ q)
@@ -94,12 +97,12 @@ def _inner(body: FreeModes, w: Any, v: Any, q: Any) -> Any:
 
 
 class _Sizes:
-    """Errors of pairs of steps in parts of what they may be.
+    """Errors of pairs of steps relative to their limits.
 
-    An error is a speed, the root mean square over the mass of the body: that of its velocities, that of its places over
-    the time of the run, and that of the same elastic energy. It counts against the largest speed that there was, of
-    translation apart from all other motion, and against the part that the pair has of the tolerance, in proportion to its time:
-    the errors of all steps together then are the tolerance at most.
+    An error is a speed, root mean square over the mass of the body: of its velocities, of its positions divided by the
+    length of the run, and of equal elastic energy. It is relative to the largest speed so far, separately for
+    translation and all other motion, and to the share of the pair in the tolerance, proportional to its duration. The
+    sum of all errors is then at most the tolerance.
     """
 
     def __init__(self, body: FreeModes, start: Array, stop_time: float, tolerance: float) -> None:
@@ -114,7 +117,7 @@ class _Sizes:
         self.stop_time, self.tolerance = stop_time, tolerance
 
     def errors(self, squares: Array, dt: float) -> Array:
-        """Errors of each pair, 1 where they are as large as they may be, from the last four values of `pair`."""
+        """Return the relative error of each pair, at most 1 if accepted, from the last four values of `pair`."""
         outer, inner = np.maximum.accumulate(np.vstack([self.most, squares[:, 2:]]))[1:].T
         parts = np.column_stack([squares[:, 0], squares[:, 1]]), np.column_stack([outer + inner, inner])
         ratios = np.divide(*parts, out=np.where(parts[0] == 0, 0.0, np.inf), where=parts[1] > 0)
@@ -122,25 +125,25 @@ class _Sizes:
         return RICHARDSON * np.sqrt(ratios.max(axis=1)) / share
 
     def take(self, squares: Array) -> None:
-        """Remember the speeds of pairs that are kept."""
+        """Update the largest speeds by accepted pairs."""
         self.most = np.maximum(self.most, squares[:, 2:].max(axis=0, initial=0.0))
 
 
 class _Run:
-    """A run under control.
+    """A run with step size control.
 
     Parameters
     ----------
     modes : FreeModes
         The body.
     inputs : Inputs
-        What acts on it.
+        Loads and gravity.
     start : array, shape (15 + 2 N,)
         State at the start.
     breaks : array
-        Times in s at which steps end, the stop time last.
+        Times in s at which steps must end, the stop time last.
     tolerance : float
-        What the errors of all steps may be.
+        Limit of the sum of all errors.
     """
 
     def __init__(self, modes: FreeModes, inputs: Inputs, start: Array, breaks: Array, tolerance: float) -> None:
@@ -154,7 +157,7 @@ class _Run:
         self.shortest = tolerance * SHARE * self.stop_time
         self.dt = min(self.most, FIRST * self.stop_time)
         self.time, self.state, self.length, self.rejected = 0.0, start, 1, 0
-        # Times, states and rates, appended at once: an interrupt may come anywhere.
+        # Times, states and rates, appended together: an interrupt may come at any time.
         self.kept: list[tuple[Array, Array, Array]] = []
 
     @property
@@ -163,13 +166,13 @@ class _Run:
         return sum(len(times) for times, _, _ in self.kept)
 
     def block(self, end: float) -> bool:
-        """Take pairs towards a break, and return whether it is reached."""
+        """Take a block of pairs towards a break; return whether the break is reached."""
         pairs = max(int(np.ceil((end - self.time) / (2 * self.dt) - WHOLE)), 1)
         dt = (end - self.time) / (2 * pairs)
         count = 1 << (min(self.length, pairs).bit_length() - 1)
         states, values = self.step(self.state, self.inputs.pairs(self.time, dt, count))
         errors = self.sizes.errors(values[:, -4:], dt)
-        fits = errors <= 1  # false for what is no number
+        fits = errors <= 1  # False for NaN
         good = count if fits.all() else int(np.argmin(fits))
         if not good and 2 * dt <= self.shortest:
             if not np.isfinite(values[0]).all():
@@ -189,7 +192,7 @@ class _Run:
         return reached
 
     def _keep(self, states: Array, values: Array, dt: float) -> None:
-        """Rows for the start of each step, with the rates there."""
+        """Append rows for the start of each step, with the rates there."""
         if not len(states):
             return
         n = self.modes.size
@@ -209,19 +212,19 @@ class _Run:
         self.state = states[-1]
         if self.taken * (15 + 2 * n) > MOST:
             raise SimulationError(
-                f"after {self.taken} steps the motion holds more than {MOST:g} numbers, at t = {end:.6g} s: a load may be no "
-                "function of the time alone. Take a larger tolerance, or a shorter run",
+                f"after {self.taken} steps, at t = {end:.6g} s, the motion has more than {MOST:g} numbers: a load may depend on "
+                "more than the time. Use a larger tolerance or a shorter run",
                 self.motion(),
             )
 
     def finish(self) -> None:
-        """Take the rates at the stop time."""
+        """Append the row of the stop time."""
         row = np.hstack([[[self.dt]], *[self.inputs.at(np.array([self.stop_time]))] * 5])
         _, values = self.step(self.state, row)
         self.kept.append((np.array([self.stop_time]), self.state[None], values[:, : self.modes.size]))
 
     def motion(self) -> FrameMotion:
-        """What there is."""
+        """Return the motion so far."""
         step, none = self.step, (np.empty(0), np.empty((0, len(self.state))), np.empty((0, self.modes.size)))
         times, states, outputs = (np.concatenate(parts) for parts in zip(none, *self.kept, strict=True))
         found = March(states, outputs, False, step.operations, step.building, step.seconds)
@@ -241,31 +244,31 @@ def controlled(
     tolerance: float,
     progress: Callable[[float, int], None] | None,
 ) -> FrameMotion:
-    """Move a body by steps of the size that a tolerance allows.
+    """Move a body by steps whose size follows from a tolerance.
 
     Parameters
     ----------
     modes : FreeModes
         The body.
     inputs : Inputs
-        What acts on it.
+        Loads and gravity.
     start : array, shape (15 + 2 N,)
         State at the start.
     breaks : array
-        Times in s at which loads break, the stop time last.
+        Times in s at which loads are not smooth, the stop time last.
     times : array
-        Times in s that are kept, of the start and after; all if there are none.
+        Output times in s, including the start; if empty, the end of each step.
     tolerance : float
-        What the errors of all steps may be, as a part of the largest speed of the points of the body.
+        Limit of the sum of all errors, relative to the largest speed of the points of the body.
     progress : callable or None
-        Told the part of the run that is done, and the steps.
+        Called with the completed fraction of the run and the number of steps.
 
     Raises
     ------
     SimulationError
-        If the motion diverges, or has too many steps; `result` holds what was computed.
+        If the motion diverges or has too many steps; `result` holds the motion until then.
     KeyboardInterrupt
-        With what was computed as its attribute `result`.
+        With the motion until then as attribute `result`.
     """
     run = _Run(modes, inputs, start, breaks, tolerance)
     try:

@@ -1,4 +1,4 @@
-"""Steps of one size."""
+"""Integration with a fixed step size."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ def fixed(
     readings: Readings | None,
     progress: Any,
 ) -> FrameMotion:
-    """Move a body by steps of one size.
+    """Move a body by steps of a fixed size.
 
     Parameters
     ----------
     modes : FreeModes
         The body.
     inputs : Inputs
-        What acts on it.
+        Loads and gravity.
     start : array, shape (15 + 2 N,)
         State at the start.
     dt : float
@@ -40,16 +40,16 @@ def fixed(
     count : int
         Number of steps.
     readings : Readings or None
-        Those of the variant "paper"; None for the corrected one.
+        Readings of the variant "paper"; None for the corrected variant.
     progress : callable or None
-        Told the part of the run that is done, and the steps.
+        Called with the completed fraction of the run and the number of steps.
 
     Raises
     ------
     SimulationError
-        If the motion diverges; `result` holds what was computed.
+        If the motion diverges; `result` holds the motion until then.
     KeyboardInterrupt
-        With what was computed as its attribute `result`.
+        With the motion until then as attribute `result`.
     """
     take = partial(printed, dt=dt, readings=readings) if readings else partial(corrected, dt=dt)
     times = dt * np.arange(count + 1)
@@ -59,7 +59,7 @@ def fixed(
         variant = "paper" if readings else "corrected"
         return FrameMotion(modes, times[:done], found.states[:done], found.outputs, variant, found, max(done - 1, 0))
 
-    # A step more than there are: the last one tells the accelerations at the stop time, its end is not looked at.
+    # One additional step gives the accelerations at the stop time; its end is ignored.
     rows = inputs.steps(dt, count, readings.middle if readings else "middle")
     try:
         found = march(

@@ -1,4 +1,4 @@
-"""A free body in all its modes, the rigid ones first: what its motion in an inertial frame needs."""
+"""All modes of a free body, rigid and flexible, with the projections that motion in an inertial frame needs."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ PERMUTED = np.array([[[(i - j) * (j - k) * (k - i) / 2 for k in range(3)] for j 
 
 @dataclass(frozen=True, eq=False)
 class FreeModes:
-    """Modes Psi of a free body: three translations, three turns about its centre of mass, and n flexible ones.
+    """Modes Psi of a free body: three translations, three rotations about its centre of mass, and n flexible modes.
 
-    All rigid quantities follow from the mass, the centre of mass and the second moments of the body, and so are exact
-    to rounding, where eigenvectors near 0 Hz are not. Orders below are N = 6 + n.
+    The rigid modes follow from the mass, the centre of mass and the second moments of the body, and are exact to
+    round-off, unlike eigenvectors near 0 Hz. N = 6 + n is the number of all modes.
 
     Parameters
     ----------
     body : ReducedBody
-        A body with mean axes, its modes being orthogonal to rigid motion.
+        Body with mean axes: its modes are orthogonal to rigid motion.
     damping : array, shape (n,)
-        Part of critical damping of each flexible mode, beside the damping that the body has.
+        Damping ratio of each flexible mode, added to the damping of the body.
     """
 
     body: ReducedBody
@@ -90,7 +90,7 @@ class FreeModes:
         return np.linalg.solve(self.body.M, self.body.D) + shapes @ np.diag(rates) @ shapes.T @ self.body.M
 
     def load(self, interface: Interface) -> tuple[Array, Array]:
-        """M_q^-1 Psi' of a unit force and of a unit moment at a frame, with the lever of the undeformed body.
+        """Return M_q^-1 Psi' of unit forces and unit moments at a frame, with the lever of the undeformed body.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class FreeModes:
         Returns
         -------
         force, moment : array, shape (N, 3)
-            Accelerations of the modes.
+            Modal accelerations.
         """
         X = interface.place
         lever = np.cross(X, np.eye(3)).T
@@ -109,7 +109,7 @@ class FreeModes:
         return self.inverse @ force, self.inverse @ moment
 
     def turned(self, R: Any, z: Any) -> Any:
-        """Project a motion whose vectors are turned: M_q^-1 Psi' M R Psi z.
+        """Project a rotated motion on the modes: M_q^-1 Psi' M R Psi z.
 
         Parameters
         ----------
@@ -121,7 +121,7 @@ class FreeModes:
         return sum((R[i, j] * (as_expr(self.products[i, j]) @ z) for i in range(3) for j in range(3)), _none(z))
 
     def crossed(self, w: Any, z: Any) -> Any:
-        """Project w x the motion: M_q^-1 Psi' M (w~) Psi z.
+        """Project w x the motion on the modes: M_q^-1 Psi' M (w~) Psi z.
 
         Parameters
         ----------
@@ -133,7 +133,7 @@ class FreeModes:
         return sum((w[k] * (as_expr(self.turning[k]) @ z) for k in range(3)), _none(z))
 
     def restored(self, q: Any, v: Any) -> Any:
-        """Accelerations of the flexible modes by stiffness and damping, shape (n,).
+        """Return the accelerations of the flexible modes by stiffness and damping, shape (n,).
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Motion of a body in reconfigured inertial frames: embedded rigid motion, modes, and points of the body."""
+"""Motion of a body in reconfigured inertial frames: embedded rigid motion, modal coordinates, points."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ RULES = ("modal", "moving")
 
 @dataclass(frozen=True, eq=False)
 class FrameMotion:
-    """What `simulate_reconfigured` returns.
+    """Result of `simulate_reconfigured`.
 
     Parameters
     ----------
     modes : FreeModes
-        The body, with its damping.
+        Modes and damping of the body.
     time : array, shape (times,)
         In s.
     states, outputs : array
-        As of the steps.
+        States and outputs of the steps.
     variant : str
         "corrected" or "paper".
     march : March
-        The steps with their counts and seconds.
+        The compiled steps with their counts and times.
     steps : int
         Number of steps from the start to the last time.
     tolerance : float
-        What controlled the size of the steps, 0 for steps of one size.
+        Tolerance of the step size control, 0 for fixed steps.
     rejected : int
-        Steps that were too long, and taken again: two of a pair, and those after it that were computed with it.
+        Steps that were rejected, including those computed after a rejected pair in the same block.
     breaks : tuple of float
-        Times in s at which steps end because loads break there.
+        Break times of loads in s, at which steps end.
     """
 
     modes: FreeModes
@@ -54,12 +54,12 @@ class FrameMotion:
 
     @property
     def r_0(self) -> Array:
-        """Place of the undeformed centre of mass in m, resolved in the world, shape (times, 3)."""
+        """Position of the undeformed centre of mass in m, resolved in the world, shape (times, 3)."""
         return self.states[:, :3]
 
     @property
     def T(self) -> Array:
-        """Matrices that turn world components into those of the body, shape (times, 3, 3)."""
+        """Rotation matrices from world to body components, shape (times, 3, 3)."""
         return self.states[:, 3:12].reshape(-1, 3, 3)
 
     @property
@@ -84,32 +84,32 @@ class FrameMotion:
 
     @property
     def al(self) -> Array:
-        """Angular acceleration in rad/s2, resolved in the body, shape (times, 3); as printed, that of (37)."""
+        """Angular acceleration in rad/s2, resolved in the body, shape (times, 3); for variant "paper" that of (37)."""
         return self.outputs[:, 3:6] if self.variant == "corrected" else self.outputs[:, self.modes.size :]
 
     @cached_property
     def qd(self) -> Array:
-        """Rates of the flexible modes as seen in the moving frame, in m/s, shape (times, n)."""
+        """Rates of the flexible modes relative to the moving frame in m/s, shape (times, n)."""
         return self.rates[:, 6:] - self._crossed(self.w, self.amplitudes)[:, 6:]
 
     @cached_property
     def qdd(self) -> Array:
-        """Their derivatives in m/s2, shape (times, n)."""
+        """Derivatives of `qd` in m/s2, shape (times, n)."""
         none = np.zeros((len(self.time), 6))
         v, al = self._body_rates()[:, 6:], self._body_rates()[:, 3:6]
         turned = self._crossed(al, self.amplitudes) + self._crossed(self.w, np.hstack([none, self.qd]))
         return v - turned[:, 6:]
 
     def place(self, frame: str) -> Array:
-        """Place of a frame in m, resolved in the world, shape (times, 3)."""
+        """Return the position of a frame in m, resolved in the world, shape (times, 3)."""
         interface = self._interface(frame)
         local = interface.place + self._displaced(interface, self.amplitudes)
         return self.r_0 + _resolve1(self.T, local)
 
     def velocity(self, frame: str) -> Array:
-        """Velocity of a frame in m/s, resolved in the world, shape (times, 3).
+        """Return the velocity of a frame in m/s, resolved in the world, shape (times, 3).
 
-        Corrected, the derivative of its place; as printed, Psi v.
+        Variant "corrected": the derivative of its position; variant "paper": Psi v.
         """
         interface = self._interface(frame)
         if self.variant == "paper":
@@ -119,28 +119,28 @@ class FrameMotion:
         return _resolve1(self.T, moved)
 
     def acceleration(self, frame: str, rule: str | None = None, *, embedded: bool = False) -> Array:
-        """Acceleration of a frame in m/s2, resolved in the world, shape (times, 3).
+        """Return the acceleration of a frame in m/s2, resolved in the world, shape (times, 3).
 
         Parameters
         ----------
         frame : str
             Name of the frame.
         rule : str, optional
-            "modal": Psi v', which misses what the modes do not hold; "moving": as in a moving frame, with w x (w x (X + u))
-            and 2 w x u'. Without one, "moving" for the corrected variant, whose velocity it is the derivative of, and for
-            embedded motion; else "modal", as printed.
+            "modal": Psi v', which lacks the terms outside the span of the modes; "moving": with w x (w x (X + u)) and 2
+            w x u', the derivative of the velocity of the corrected variant. By default "moving" for the corrected
+            variant and for embedded motion, else "modal" as in the paper.
         embedded : bool
-            Whether of the embedded rigid motion alone, without deformation.
+            Whether to return the acceleration of the embedded rigid motion, without deformation.
 
         Raises
         ------
         DeclarationError
-            If there is no such frame or rule.
+            If the frame or the rule is unknown.
         """
         interface = self._interface(frame)
         rule = rule or ("moving" if self.variant == "corrected" or embedded else "modal")
         if rule not in RULES:
-            raise DeclarationError(f"the rule of an acceleration is one of {', '.join(map(repr, RULES))}, not {rule!r}")
+            raise DeclarationError(f"rule must be one of {', '.join(map(repr, RULES))}, not {rule!r}")
         w, X = self.w, interface.place
         Phi = 0 * interface.displacement if embedded else interface.displacement
         carried = self._crossed(w, self.rates)
@@ -161,7 +161,7 @@ class FrameMotion:
         return self._body_rates()[:, :3] + np.cross(self.w, self.rates[:, :3])
 
     def _body_rates(self) -> Array:
-        """Derivatives of the rates of all modes as seen in the moving axes, shape (times, 6 + n)."""
+        """Derivatives of all modal rates relative to the moving axes, shape (times, 6 + n)."""
         found = self.outputs[:, : self.modes.size]
         return found if self.variant == "corrected" else found - self._crossed(self.w, self.rates)
 
@@ -169,13 +169,13 @@ class FrameMotion:
         return np.einsum("tk,kab,tb->ta", w, self.modes.turning, z, optimize=True)
 
     def _displaced(self, interface: Interface, z: Array) -> Array:
-        """Displacement of a frame by all modes."""
+        """Return the displacement of a frame by all modes."""
         return z[:, :3] + np.cross(z[:, 3:6], interface.place) + z[:, 6:] @ interface.displacement.T
 
     def _interface(self, frame: str) -> Interface:
         frames = {interface.name: interface for interface in self.modes.body.interfaces}
         if frame not in frames:
-            raise DeclarationError(f"the body has no frame `{frame}`: it has {', '.join(frames) or 'none'}")
+            raise DeclarationError(f"the body has no frame `{frame}`; it has {', '.join(frames) or 'none'}")
         return frames[frame]
 
 

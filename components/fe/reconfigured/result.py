@@ -1,4 +1,4 @@
-"""The motion in reconfigured frames by the names that an `FEBody` in a scene has."""
+"""Conversion of a motion in reconfigured frames to a `Result` with the variable names of an `FEBody`."""
 
 from __future__ import annotations
 
@@ -25,39 +25,40 @@ def as_result(
     model: Component | CompiledModel | None = None,
     times: Sequence[float] | Array | None = None,
 ) -> Result:
-    """Return a motion as a result.
+    """Convert a motion to a `Result`.
 
     Parameters
     ----------
     motion : FrameMotion
-        What `simulate_reconfigured` returned.
+        Result of `simulate_reconfigured`.
     name : str
-        Name of the body, its path in the model if there is one.
+        Name of the body, or its path in the model.
     model : Component or CompiledModel, optional
-        Scene in which nothing else moves: everything of it can then be read, and its outputs are those of the result. What
-        depends on accelerations is as the variant forms them; forces are those of the scene.
+        Scene in which nothing else moves. The result then has all its variables and its outputs. Accelerations are
+        those of the variant; forces are those of the scene.
     times : array_like, shape (n,), optional
-        In s: ends of steps, at which the result is wanted; all if not given.
+        Times in s of the result, which must be ends of steps; by default all.
 
     Returns
     -------
     Result
-        With `name` before each: q, qd, qdd; r_0, v_0, a_0, w_a, z_a of the reference frame; and r_0, R.T, R.w, v, a, z of `ref`
-        and of each frame. The embedded rigid motion has the names `name.embedded.FRAME.r_0`, `v_0` and `a_0`, all
-        resolved in the world. Accelerations are as the variant forms them.
+        Variables with prefix `name`: q, qd, qdd; r_0, v_0, a_0, w_a, z_a of the reference frame; r_0, R.T, R.w, v, a, z
+        of `ref` and of each frame; and the embedded rigid motion `name.embedded.FRAME.r_0`, `v_0` and `a_0`, resolved
+        in the world. Accelerations are those of the variant.
 
     Raises
     ------
     DeclarationError
-        If it is no such motion, the name is none, a time is no end of a step, or the model has another body of this name.
+        If an argument is invalid, a time is not the end of a step, or the model has another body of this name.
     """
     if not isinstance(motion, FrameMotion):
-        raise DeclarationError(f"as_result() takes what simulate_reconfigured() returned, not {motion!r}")
+        raise DeclarationError(f"as_result() needs the result of simulate_reconfigured(), not {motion!r}")
     values = _modes(motion) | _reference(motion)
     for interface in motion.modes.body.interfaces:
         own = _frame(motion, interface)
         if model is not None and not interface.rotation.any():
-            # In a scene such a frame turns as the reference frame, without the rigid part of the deformation as printed.
+            # In a scene, such a frame rotates with the reference frame, without the rigid part of the printed
+            # deformation.
             own = {key: value for key, value in own.items() if key not in ("R.T", "R.w", "z")}
         values |= {f"{interface.name}.{key}": value for key, value in own.items()}
         rigid = _embedded(motion, interface)
@@ -75,7 +76,7 @@ def as_result(
         steps=motion.steps,
         tolerance=motion.tolerance,
         break_times=list(motion.breaks),
-        # Of controlled steps every two are taken again as one.
+        # Step size control takes each pair of steps again as one step.
         residual_evaluations=len(STAGES) * (motion.steps + motion.rejected) * (3 if motion.tolerance else 2) // 2,
         operations=motion.march.operations,
         compile_seconds=motion.march.building,
@@ -88,7 +89,7 @@ def as_result(
 
 
 def _rows(motion: FrameMotion, times: Any) -> Any:
-    """Places of times among the ends of steps."""
+    """Return the rows of times among the ends of steps."""
     if times is None:
         return slice(None)
     wanted = np.asarray(times, dtype=float).reshape(-1)
@@ -97,15 +98,15 @@ def _rows(motion: FrameMotion, times: Any) -> Any:
     off = np.abs(motion.time[places] - wanted) > WHOLE * np.diff(motion.time).min()
     if off.any():
         raise DeclarationError(
-            f"at t = {wanted[off][0]:.6g} s no step ends: take steps that divide the time between two of those wanted"
+            f"no step ends at t = {wanted[off][0]:.6g} s; use steps that divide the intervals between the times"
         )
     return places
 
 
 def _reason(motion: FrameMotion) -> str:
     if not motion.tolerance:
-        return "steps of one size were asked for"
-    return f"tolerance {motion.tolerance:g}: {motion.steps} steps were kept, {motion.rejected} were too long"
+        return "fixed steps were requested"
+    return f"tolerance {motion.tolerance:g}: {motion.steps} steps accepted, {motion.rejected} rejected"
 
 
 def _modes(motion: FrameMotion) -> Named:
@@ -113,7 +114,7 @@ def _modes(motion: FrameMotion) -> Named:
 
 
 def _reference(motion: FrameMotion) -> Named:
-    """The reference frame: with mean axes its origin is where the centre of mass of the undeformed body is."""
+    """Return the reference frame; with mean axes its origin is the centre of mass of the undeformed body."""
     T, w, v, a = motion.T, motion.w, motion.rates[:, :3], motion.a
     local = {"r_0": motion.r_0, "R.T": T, "R.w": w, "v": v, "a": a, "z": motion.al, "Q": _quaternions(T)}
     found: Named = {f"ref.{key}": (value, UNITS[key]) for key, value in local.items()}
@@ -123,7 +124,7 @@ def _reference(motion: FrameMotion) -> Named:
 
 
 def _frame(motion: FrameMotion, interface: Interface) -> Named:
-    """A frame, turned against the reference frame by `rodrigues_rotation` of its small rotation vector."""
+    """Return a frame, rotated relative to the reference frame by `rodrigues_rotation` of its rotation vector."""
     Psi = interface.rotation
     p, pd, pdd = (x @ Psi.T / 2 for x in (motion.q, motion.qd, motion.qdd))
     p = p + motion.amplitudes[:, 3:6] / 2
@@ -147,7 +148,7 @@ def _frame(motion: FrameMotion, interface: Interface) -> Named:
 
 
 def _embedded(motion: FrameMotion, interface: Interface) -> Named:
-    """The same point of the rigid body that moves with the frame."""
+    """Return the motion of the same point in the embedded rigid body."""
     T, X, name = motion.T, interface.place, interface.name
     v = motion.rates[:, :3] + np.cross(motion.w, X)
     place, velocity = (np.einsum("tij,ti->tj", T, x) for x in (np.broadcast_to(X, v.shape), v))
@@ -160,12 +161,12 @@ def _apply(T: Array, v: Array) -> Array:
 
 
 def _skew(v: Array) -> Array:
-    """Matrices of v x: their columns are v x e_k."""
+    """Return the matrices of v x, with columns v x e_k."""
     return np.cross(v[:, None, :], np.eye(3)).transpose(0, 2, 1)
 
 
 def _quaternions(T: Array) -> Array:
-    """Quaternions of attitudes, those of one time near those of the time before."""
+    """Return the quaternions of attitudes, with continuous signs."""
     from scipy.spatial.transform import Rotation
 
     found = Rotation.from_matrix(T.transpose(0, 2, 1)).as_quat()

@@ -1,4 +1,4 @@
-"""A scene of one free body, run by steps in inertial frames: for a formulation of a study."""
+"""Run of a scene with one free body by steps in inertial frames, as a formulation of a study."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from components.fe.reconfigured.step_limits import WHOLE
 from components.fe.reduction.reduced_body import ReducedBody
 
 Loads = Sequence[FrameLoad] | Callable[[Any], Sequence[FrameLoad]]
-# Of the largest load: how near those of the scene are, which follow from the states by rotations.
+# Difference between loads and those of the scene, relative to the largest load: round-off of rotations and step errors.
 SAME = 1e-6
-# Arguments of the steps, and what they are in an FEBody.
+# Arguments of `simulate_reconfigured` and the corresponding variables of an FEBody.
 START = {
     "position": "ref.r_0",
     "attitude": "ref.R.T",
@@ -48,39 +48,40 @@ def run_reconfigured(
 ) -> Result:
     """Run a scene in which one free FEBody moves by steps in inertial frames.
 
-    It is the run of the formulations that `by_steps` makes. Start, gravity, modes, stiffness and damping are those of the scene.
+    `by_steps` makes formulations with this run. Start values, gravity, modes, stiffness and damping are those of the
+    scene.
 
     Parameters
     ----------
     model : CompiledModel
-        The scene.
+        Compiled scene.
     stop_time : float
-        In s.
+        Stop time in s.
     times : array_like, shape (n,)
-        Equidistant from 0 to `stop_time`, in s.
+        Equidistant times from 0 to `stop_time` in s.
     dt : float
-        Longest step in s; steps are shortened so that one ends at each of the times.
+        Largest step in s; steps are shortened to end at each of the times.
     tolerance : float
-        In place of `dt`, of `simulate_reconfigured`.
+        Tolerance of `simulate_reconfigured`, instead of `dt`.
     body : str
         Path of the body.
     loads : sequence of FrameLoad, or callable
-        What the scene does to its frames; or a function of the scene, with its values as attributes, that returns it.
+        Loads of the scene on the frames, or a function of the scene that returns them.
     progress : callable, optional
-        Told the part of the run that is done, and the steps.
+        Called with the completed fraction of the run and the number of steps.
     **options
         `variant` and `readings` of `simulate_reconfigured`.
 
     Returns
     -------
     Result
-        Of everything in the scene at the times, see `as_result`.
+        All variables of the scene at the times, see `as_result`.
 
     Raises
     ------
     DeclarationError
-        If there is no such body, something else moves, gravity or effects are others than the steps know, or the loads are
-        not what acts in the scene.
+        If the body does not exist, something else moves, gravity or effects are not supported by the steps, or the
+        loads differ from those of the scene.
     """
     parts, gravity = _body(model, body)
     given = loads(model.tree) if callable(loads) else loads
@@ -108,19 +109,19 @@ def run_reconfigured(
 def by_steps(
     settings: Mapping[str, Any], dt: Sequence[float], loads: Loads = (), body: str = "body"
 ) -> tuple[Formulation, ...]:
-    """Return steps in inertial frames as formulations of a scene.
+    """Return formulations of a scene by steps in inertial frames.
 
-    They are "reconfigured, as printed" and "reconfigured, corrected" with steps of one size, and "reconfigured, controlled", the
-    latter with steps whose size follows from a tolerance.
+    They are "reconfigured, as printed" and "reconfigured, corrected" with fixed steps, and "reconfigured, controlled"
+    with adaptive steps.
 
     Parameters
     ----------
     settings : mapping of str to value
-        What selects the scene with a flexible body.
+        Settings that select the flexible body in the scene.
     dt : sequence of float
-        Steps in s that are tried.
+        Steps in s to be tried.
     loads, body
-        As of `run_reconfigured`.
+        See `run_reconfigured`.
     """
     run = partial(run_reconfigured, loads=loads, body=body)
     names = {"reconfigured, as printed": "paper", "reconfigured, corrected": "corrected"}
@@ -129,9 +130,9 @@ def by_steps(
 
 
 def _check_loads(result: Result, body: str, parts: ReducedBody, loads: Sequence[FrameLoad]) -> None:
-    """Refuse loads that are others than those of the scene at the motion that was found."""
+    """Check the loads against those of the scene along the motion."""
     if any(load.node is not None for load in loads):
-        raise DeclarationError("loads of a scene act at frames of the body, not at nodes")
+        raise DeclarationError("loads of a scene must act at frames of the body, not at nodes")
     for interface in parts.interfaces:
         frame = f"{body}.{interface.name}"
         T, own = result[f"{frame}.R.T"], [load for load in loads if load.frame == interface.name]
@@ -142,31 +143,31 @@ def _check_loads(result: Result, body: str, parts: ReducedBody, loads: Sequence[
                 course = sampled(getattr(load, part), result.time, f"{part} at `{interface.name}`")
                 given += np.einsum("tij,ti->tj", result[f"{body}.ref.R.T"], course) if load.follower else course
             wrong = np.abs(acts - given).max(axis=1) > SAME * max(np.abs(acts).max(), np.abs(given).max())
-            # At a single time a load may jump, and have either value.
+            # At a jump of a load, a single time may have either value.
             for k in np.flatnonzero(wrong[1:] & wrong[:-1])[:1]:
                 shown = " and ".join(str(tuple(np.round(x[k + 1], 6).tolist())) for x in (acts, given))
                 raise DeclarationError(
-                    f"the {part} at `{interface.name}` is {shown} {unit} in the scene and in the loads, at t = "
-                    f"{result.time[k + 1]:.6g} s: give the loads of the scene, loads=[FrameLoad(...), ...]"
+                    f"the {part} at `{interface.name}` at t = {result.time[k + 1]:.6g} s is {shown} {unit} in the scene and in "
+                    "the loads. Do this: pass the loads of the scene as loads=[FrameLoad(...), ...]"
                 )
 
 
 def _body(model: CompiledModel, path: str) -> tuple[ReducedBody, Array | None]:
-    """The body with its modes, stiffness and damping, and gravity."""
+    """Return the body with its modes, stiffness and damping, and gravity."""
     own: Any = model.value(path)
     if not isinstance(own, FEBody):
-        raise DeclarationError(f"`{path}` is no FEBody, but {own!r}: name the path of one by body=")
+        raise DeclarationError(f"`{path}` is not an FEBody, but {own!r}; pass the path of one as body=")
     if own._held:
         raise DeclarationError(
-            f"`{path}` has its reference frame at `{own._held.name}`: only a free body moves by steps"
+            f"`{path}` has its reference frame at `{own._held.name}`; steps in inertial frames need mean axes"
         )
     if not (own.centrifugal and own.coriolis):
         raise DeclarationError(
-            f"steps in inertial frames always have centrifugal and Coriolis forces, `{path}` has not"
+            f"steps in inertial frames need centrifugal and Coriolis forces, which are switched off in `{path}`"
         )
     world = own.world
     if own.weight and world.gravity == "point":
-        raise DeclarationError("steps in inertial frames know uniform gravity only, not that of a point")
+        raise DeclarationError("steps in inertial frames support uniform gravity only, not point gravity")
     reduced = with_modes(own.reduced, own.modes)
     reduced = dataclasses.replace(reduced, K=model.value(f"{path}.stiffness") * reduced.K)
     if not own.damping:

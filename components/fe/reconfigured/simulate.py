@@ -1,4 +1,4 @@
-"""Flexible motion of a free body by single steps in inertial frames that follow its embedded rigid motion."""
+"""Motion of a free flexible body by single steps in inertial frames that follow its embedded rigid motion."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from components.fe.reduction.reduced_body import ReducedBody
 Vector = Sequence[float] | Array
 VARIANTS = ("corrected", "paper")
 DT = 1e-4
-# Tolerances: what is a thousand times rounding in each step, and what is still a motion.
+# Range of tolerances: a thousand times the round-off of a step, up to the coarsest useful motion.
 FINEST, COARSEST = 1e-10, 0.1
 
 
@@ -48,73 +48,73 @@ def simulate_reconfigured(
     qd: Any = 0.0,
     progress: Callable[[float, int], None] | None = None,
 ) -> FrameMotion:
-    """Move a free flexible body by steps in a sequence of inertial frames.
+    """Simulate a free flexible body by steps in a sequence of inertial frames.
 
     Parameters
     ----------
     body : ReducedBody
-        With mean axes: `reduce_body(..., hold="mean-axis")`.
+        Body with mean axes: `reduce_body(..., hold="mean-axis")`.
     loads : sequence of FrameLoad
-        Forces and moments at its frames, or forces at nodes, with the levers of the undeformed body.
+        Forces and moments at frames, or forces at nodes, with the levers of the undeformed body.
     stop_time : float
-        In s, a multiple of `dt`.
+        Stop time in s, a multiple of `dt`.
     dt : float
-        Step in s, 1e-4 s where neither it nor a tolerance is given.
+        Step in s; 1e-4 s by default.
     tolerance : float, optional
-        Error that controls the size of the steps of the variant "corrected", in place of `dt`, from 1e-10 to 0.1: what the
-        errors of all steps come to together, as a part of the largest speed of the points of the body (root mean square
-        over its mass, translation apart). Steps end where loads break, see `FrameLoad.breaks`.
+        Enables step size control for the variant "corrected", instead of `dt`. From 1e-10 to 0.1: limit of the sum of
+        all errors, relative to the largest speed of the points of the body (root mean square over its mass, translation
+        separately). Steps end at the breaks of loads, see `FrameLoad.breaks`.
     intervals : int, optional
-        With a tolerance: number of equal intervals of time, at whose ends the motion is kept, instead of after each step.
+        With a tolerance: number of equal output intervals, instead of output after each step.
     variant : str
-        "corrected": one frame in each step, order 4; "paper": as printed, order 1, with a wrong angular acceleration in
-        spatial motion.
+        "corrected": one frame in each step, order 4; "paper": as published, order 1, with a wrong angular acceleration
+        in spatial motion.
     readings : Readings
-        What the text leaves open, of the variant "paper" only.
+        Choices that the paper leaves open, for the variant "paper".
     damping : float or array_like, shape (n,)
-        Part of critical damping of each mode, beside the damping of the body.
+        Damping ratio of each mode, added to the damping of the body.
     gravity : 3 floats or callable, optional
         Acceleration of gravity in m/s2, resolved in the world, or a function of the time in s that returns it.
     position, velocity : 3 floats
-        Of the centre of mass at the start, in m and m/s, resolved in the world.
+        Position and velocity of the centre of mass at the start in m and m/s, resolved in the world.
     attitude : array_like, shape (3, 3), optional
-        Matrix that turns world components into those of the body at the start; the unit matrix if not given.
+        Rotation matrix from world to body components at the start; by default the unit matrix.
     spin : 3 floats
         Angular velocity at the start in rad/s, resolved in the body.
     q, qd : float or array_like, shape (n,)
-        Amplitudes of the flexible modes at the start in m, and their rates in m/s as seen in the moving frame.
+        Modal coordinates at the start in m, and their rates relative to the moving frame in m/s.
     progress : callable, optional
-        Told the part of the run that is done, and the steps.
+        Called with the completed fraction of the run and the number of steps.
 
     Returns
     -------
     FrameMotion
-        Motion at the start and after each step, or at the ends of intervals.
+        Motion at the start and after each step, or at the ends of the intervals.
 
     Raises
     ------
     DeclarationError
-        If the body is not free, a frame or node is unknown, the step is beyond the limit of stability, or the stop time is
-        no multiple of it.
+        If the body is not free, a frame or node is unknown, the step exceeds the stability limit, or the stop time is
+        not a multiple of it.
     SimulationError
-        If the motion diverges, or has too many steps; `result` holds what was computed.
+        If the motion diverges or has too many steps; `result` holds the motion until then.
     KeyboardInterrupt
-        With what was computed as its attribute `result`.
+        With the motion until then as attribute `result`.
 
     Warns
     -----
     AcausalWarning
-        If the body turns faster than half of its first frequency, or a load breaks inside of a step of one size.
+        If the body rotates faster than half of its first frequency, or a break of a load is inside a fixed step.
 
     Notes
     -----
-    As dt -> 0 the corrected variant is an ordinary differential equation, and not that of a floating frame: levers are
-    those of the undeformed body, and w x u counts only as far as the modes hold it. Without load the difference grows with
-    the cube of the spin. Neither has geometric stiffening.
+    For dt -> 0, the corrected variant is an ordinary differential equation that differs from that of a floating frame:
+    levers are those of the undeformed body, and w x u is projected on the modes. Without load, the difference grows
+    with the cube of the angular velocity. Neither has geometric stiffening.
     """
     check_free(body)
     if variant not in VARIANTS:
-        raise DeclarationError(f"variant is one of {', '.join(map(repr, VARIANTS))}, not {variant!r}")
+        raise DeclarationError(f"variant must be one of {', '.join(map(repr, VARIANTS))}, not {variant!r}")
     read = _readings(variant, readings, tolerance)
     modes = FreeModes(body, _damping(damping, body.n))
     inputs = Inputs.of(modes, loads, gravity)
@@ -124,13 +124,13 @@ def simulate_reconfigured(
     if tolerance is None:
         dt = DT if dt is None else dt
         if intervals is not None:
-            raise DeclarationError("intervals= is for steps of controlled size, tolerance=: others are kept each")
+            raise DeclarationError("intervals= needs adaptive steps, tolerance=; fixed steps are all kept")
         count = steps_of(modes, stop_time, dt)
         check_breaks(loads, float(stop_time), float(dt))
         run = fixed(modes, inputs, start, float(dt), count, read, progress)
     else:
         if dt is not None:
-            raise DeclarationError("tolerance= controls the size of the steps, in place of dt=: give one of them")
+            raise DeclarationError("tolerance= and dt= exclude each other; pass one of them")
         breaks = breaks_of(loads, positive(stop_time, "the stop time", "s"))
         times = _times(breaks[-1], intervals)
         run = controlled(modes, inputs, start, breaks, times, _tolerance(tolerance), progress)
@@ -140,17 +140,15 @@ def simulate_reconfigured(
 
 
 def _readings(variant: str, readings: Any, tolerance: Any) -> Readings | None:
-    """Those of the variant "paper", None for the corrected one."""
+    """Return the readings of the variant "paper", or None for the corrected variant."""
     if variant == "corrected":
         if readings is not None:
-            raise DeclarationError('readings are of variant="paper": the corrected one leaves nothing open')
+            raise DeclarationError('readings= applies to variant="paper" only')
         return None
     if tolerance is not None:
-        raise DeclarationError(
-            'tolerance= is of variant="corrected": as printed, steps are of one size, dt=, and of order 1'
-        )
+        raise DeclarationError('tolerance= applies to variant="corrected" only; variant="paper" has fixed steps, dt=')
     if not isinstance(readings, Readings | None):
-        raise DeclarationError(f'readings are Readings(rotation="restarted", ...), not {readings!r}')
+        raise DeclarationError(f'readings must be Readings(rotation="restarted", ...), not {readings!r}')
     return readings or Readings()
 
 
@@ -158,14 +156,14 @@ def _times(stop_time: float, intervals: Any) -> Array:
     if intervals is None:
         return np.empty(0)
     if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
-        raise DeclarationError(f"intervals is a whole number from 1 on, not {intervals!r}")
+        raise DeclarationError(f"intervals must be a positive integer, not {intervals!r}")
     return np.linspace(0.0, stop_time, int(intervals) + 1)
 
 
 def _tolerance(value: Any) -> float:
     found = positive(value, "the tolerance", "")
     if not FINEST <= found <= COARSEST:
-        raise DeclarationError(f"the tolerance is a number from {FINEST:g} to {COARSEST:g}, not {value!r}")
+        raise DeclarationError(f"the tolerance must be from {FINEST:g} to {COARSEST:g}, not {value!r}")
     return found
 
 
@@ -175,14 +173,14 @@ def _amplitudes(values: Any, n: int, what: str = "amplitudes and rates") -> Arra
     except (TypeError, ValueError):
         found = np.full(1, np.nan)
     if not np.isfinite(found).all():
-        raise DeclarationError(f"{what} of {n} modes are one number or {n}, not {values!r}")
+        raise DeclarationError(f"{what} of {n} modes must be one number or {n} numbers, not {values!r}")
     return found
 
 
 def _damping(values: Any, n: int) -> Array:
     found = _amplitudes(values, n, "damping ratios")
     if (found < 0).any():
-        raise DeclarationError(f"the damping of a mode is not negative, as it is in {values!r}")
+        raise DeclarationError(f"damping ratios must not be negative, as in {values!r}")
     return found
 
 
@@ -197,7 +195,7 @@ def _rotation(values: Any) -> Array:
         or np.abs(A @ A.T - np.eye(3)).max() > 1e-9
         or np.linalg.det(A) < 0
     ):
-        raise DeclarationError("the attitude at the start is a rotation matrix, shape (3, 3)")
+        raise DeclarationError("the attitude at the start must be a rotation matrix, shape (3, 3)")
     return A
 
 
@@ -206,7 +204,7 @@ def _vector(values: Any, what: str) -> Array:
 
 
 def _start(modes: FreeModes, A: Array, O: Array, velocity: Array, w: Array, q: Array, qd: Array) -> Array:
-    """State at the start: rates of the modes in an inertial frame are those in the moving one, and w x u."""
+    """Return the state at the start: modal rates in the inertial frame are those in the moving frame plus w x u."""
     from scipy.spatial.transform import Rotation
 
     carried = np.einsum("k,kab,b->a", w, modes.turning, np.concatenate([np.zeros(6), q]))

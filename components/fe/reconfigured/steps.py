@@ -1,4 +1,4 @@
-"""One step of a body in reconfigured inertial frames: as printed, and corrected."""
+"""One step of a body in reconfigured inertial frames: as published, and corrected."""
 
 from __future__ import annotations
 
@@ -27,27 +27,27 @@ READINGS = {
 
 @dataclass(frozen=True)
 class Readings:
-    """What the text of the method leaves open; the defaults are what is printed, and work.
+    """Choices that the paper leaves open; the defaults follow its text.
 
     Parameters
     ----------
     rotation : str
-        "accumulated": the rotation vector of (38) goes on from step to step, so that (22) has no value after each full
-        turn, and a run that passes near it can jump; "restarted": it begins anew in each step.
+        "accumulated": the rotation vector of (38) is integrated over all steps, so that (22) is singular at each full
+        turn, near which a run can jump; "restarted": it starts at 0 in each step.
     rigid_part : str
-        Rigid part q_R of the deformation, of which (40) takes away the increments only: "kept", though turns of the frame
-        feed it again; "zeroed" in each step.
+        Rigid part q_R of the deformation, of which (40) removes the increments only: "kept", although rotations of the
+        frame excite it again; "zeroed" in each step.
     increments : str
-        "summed": (39) adds increments that are resolved in four frames, which leaves the order 1; "mapped": they are
-        turned back into the frame in which the step began first. That changes the constant and leaves an order near 1.
+        "summed": (39) adds increments resolved in four frames, which reduces the order to 1; "mapped": they are first
+        rotated back to the frame at the start of the step. That changes the error constant; the order stays near 1.
     force : str
-        Attitude by which a force in the axes of the world is turned: that of the "stage", or of the "step", in which it
-        began. It changes the constant, not the order.
+        Attitude that resolves world forces in the body: of the "stage", or of the start of the "step". It changes the
+        error constant, not the order.
     middle : str
-        Load of the two stages in the middle of a step: the "mean" of both its ends, or the value at its "middle".
+        Load of the two middle stages: the "mean" of the ends of the step, or the value in its "middle".
     points : two vectors
-        Directions from the reference point R to P and to Q. Where their relative velocities are none of a rigid motion,
-        which they are in the stages of a step, (5) to (8) give another angular velocity for other directions.
+        Directions from the reference point R to P and Q. In the stages of a step, their relative velocities are not
+        those of a rigid motion, so that the angular velocity of (5) to (8) depends on these directions.
     """
 
     rotation: str = "accumulated"
@@ -61,15 +61,17 @@ class Readings:
         for name, choices in READINGS.items():
             if getattr(self, name) not in choices:
                 known = " or ".join(map(repr, choices))
-                raise DeclarationError(f"the reading `{name}` is {known}, not {getattr(self, name)!r}")
+                raise DeclarationError(f"the reading `{name}` must be {known}, not {getattr(self, name)!r}")
         try:
             p, q = (np.asarray(point, dtype=float).reshape(3) for point in self.points)
         except (TypeError, ValueError):
             raise DeclarationError(
-                f"the reading `points` is two directions, ((1, 0, 0), (0, 1, 0)), not {self.points!r}"
+                f"the reading `points` must be two directions, such as ((1, 0, 0), (0, 1, 0)), not {self.points!r}"
             ) from None
         if np.linalg.norm(np.cross(p, q)) <= ON_A_LINE * np.linalg.norm(p) * np.linalg.norm(q):
-            raise DeclarationError(f"P, Q and R lie on a line: the directions {self.points!r} tell no angular velocity")
+            raise DeclarationError(
+                f"P, Q and R are collinear: the directions {self.points!r} do not determine the angular velocity"
+            )
 
 
 @dataclass(frozen=True)
@@ -79,13 +81,13 @@ class State:
     Attributes
     ----------
     O : Expr, shape (3,)
-        Place of the origin of the frame in m, resolved in the world.
+        Position of the origin of the frame in m, resolved in the world.
     A : Expr, shape (3, 3)
-        Attitude of the frame: turns world components into those of the frame.
+        Rotation matrix from world to frame components.
     m : Expr, shape (3,)
-        Its rotation vector in rad, where it is accumulated.
+        Accumulated rotation vector in rad.
     q, v : Expr, shape (N,)
-        Amplitudes of all modes and their rates in the inertial frame, resolved in the frame.
+        Modal coordinates of all modes and their rates in the inertial frame, resolved in the frame.
     """
 
     O: Any
@@ -96,27 +98,27 @@ class State:
 
     @classmethod
     def of(cls, x: Any) -> State:
-        """Read a vector."""
+        """Split a state vector."""
         N = (len(x) - 15) // 2
         A = as_expr([[x[3 + 3 * i + j] for j in range(3)] for i in range(3)])
         return cls(x[:3], A, x[12:15], x[15 : 15 + N], x[15 + N :])
 
     @property
     def vector(self) -> Any:
-        """As a vector."""
+        """State vector."""
         return as_expr([*self.O, *(a for row in self.A for a in row), *self.m, *self.q, *self.v])
 
 
 @dataclass(frozen=True, eq=False)
 class Loads:
-    """What acts in the three instants of a step: its start, its middle and its end.
+    """Loads at the start, in the middle and at the end of a step.
 
     Attributes
     ----------
     world, follower : array, shape (N, 3 k)
-        Accelerations of the modes by components of loads resolved in the world and in the body.
+        Modal accelerations by components of loads resolved in the world and in the body.
     inputs : Expr, shape (3 (3 + 3 k + 3 l),)
-        For each instant, acceleration of gravity resolved in the world, loads in the world, loads in the body.
+        For each instant: gravity resolved in the world, loads in the world, loads in the body.
     """
 
     world: Array
@@ -124,7 +126,7 @@ class Loads:
     inputs: Any
 
     def at(self, part: float, A: Any) -> Any:
-        """Accelerations of the modes at a part of the step, by a frame of attitude A, shape (N,)."""
+        """Return the modal accelerations at the fraction `part` of the step, for a frame of attitude A, shape (N,)."""
         k, l = self.world.shape[1], self.follower.shape[1]
         size = 3 + k + l
         u = self.inputs[int(2 * part) * size : (int(2 * part) + 1) * size]
@@ -136,10 +138,10 @@ class Loads:
 
 
 def corrected(body: FreeModes, loads: Loads, state: State, dt: float) -> tuple[Any, Any]:
-    """One frame in each step: the equations of motion in its axes, by the classical method of order 4.
+    """Take a classical Runge-Kutta step of the equations of motion in one frame.
 
-    v' = M_q^-1 (Psi' f - K_q q - C_q v) - M_q^-1 Psi' M (w~) Psi v, q' = v - M_q^-1 Psi' M (w~) Psi q with q_R = 0, and the
-    rotation vector begins with 0 in each step. The rows of rotation are Euler's equation.
+    v' = M_q^-1 (Psi' f - K_q q - C_q v) - M_q^-1 Psi' M (w~) Psi v, q' = v - M_q^-1 Psi' M (w~) Psi q with q_R = 0, and
+    the rotation vector starts at 0 in each step. The rows of rotation are Euler's equations.
 
     Returns
     -------
@@ -163,7 +165,7 @@ def corrected(body: FreeModes, loads: Loads, state: State, dt: float) -> tuple[A
 
 
 def printed(body: FreeModes, loads: Loads, state: State, dt: float, readings: Readings) -> tuple[Any, Any]:
-    """Equations (36) to (40) of the seed, with increments resolved in the frames of four stages.
+    """Take a step of equations (36) to (40) of the paper, with increments resolved in the frames of four stages.
 
     Returns
     -------
@@ -200,12 +202,12 @@ def printed(body: FreeModes, loads: Loads, state: State, dt: float, readings: Re
 
 @dataclass(frozen=True)
 class Relative:
-    """Angular velocity and acceleration from those of two points relative to a third one: (5) to (14).
+    """Angular velocity and acceleration from the relative motion of three points: (5) to (14).
 
     Parameters
     ----------
     p, q : sequence of 3 floats
-        Directions from R to P and to Q; the distances cancel.
+        Directions from R to P and Q; the distances cancel.
     """
 
     p: Sequence[float]
@@ -213,24 +215,24 @@ class Relative:
 
     @property
     def axes(self) -> tuple[Array, Array, Array, float]:
-        """e1, e2, e3, and the size of e1 x e2."""
+        """e1, e2, e3, and the length of e1 x e2."""
         e1, e2 = (np.asarray(d, dtype=float) / np.linalg.norm(d) for d in (self.p, self.q))
         normal = np.cross(e1, e2)
         return e1, e2, normal / np.linalg.norm(normal), float(np.linalg.norm(normal))
 
     def of_turn(self, w: Any) -> tuple[Any, Any]:
-        """Motions of P and Q about R by a turn, at the distance 1."""
+        """Return the velocities of P and Q relative to R in a rotation, at distance 1."""
         e1, e2, _, _ = self.axes
         return cross(w, e1), cross(w, e2)
 
     def velocity(self, P: Any, Q: Any) -> Any:
-        """(5) to (8)."""
+        """Return the angular velocity of (5) to (8)."""
         e1, e2, e3, size = self.axes
         third = P @ (e2 - (e1 @ e2) * e1) / size
         return Q @ e3 / size * e1 - P @ e3 / size * e2 + third * e3
 
     def acceleration(self, P: Any, Q: Any, aP: Any, aQ: Any, w: Any) -> Any:
-        """(10) to (13), with (e3 x (w x P) - e3 x aP) . e1 in (10)."""
+        """Return the angular acceleration of (10) to (13), with (e3 x (w x P) - e3 x aP) . e1 in (10)."""
         e1, e2, e3, size = self.axes
         third = (cross(e3, cross(w, P)) - cross(e3, aP)) @ e1
         second = (cross(w, P) - aP) @ e3 / size
@@ -242,7 +244,7 @@ def _turned(body: FreeModes, R: Any, q: Any, v: Any) -> tuple[Any, Any]:
 
 
 def _flexible(a: Any) -> Any:
-    """The same without rigid part in front."""
+    """Prepend a rigid part of 0."""
     return as_expr([*np.zeros(6), *a])
 
 

@@ -134,7 +134,7 @@ def test_result():
     assert found.stats.tolerance == 1e-4
     assert found.stats.break_times == [JUMP]
     assert found.stats.steps == len(found.time) - 1
-    assert "steps were kept" in found.stats.method_reason
+    assert "steps accepted" in found.stats.method_reason
     assert np.isfinite(found["body.end.a"]).all()
 
 
@@ -174,7 +174,7 @@ def test_interrupted_and_resumed():
 
 
 def test_diverged():
-    with pytest.raises(ac.SimulationError, match=r"diverges in step \d+.*turns by up to") as caught:
+    with pytest.raises(ac.SimulationError, match=r"diverges in step \d+.*rotates at up to") as caught:
         simulate_reconfigured(plate(), (), 2.0, tolerance=1e-2, spin=(0, 400, 0), q=1e-4)
     assert isinstance(caught.value.result, FrameMotion)
     assert np.isfinite(caught.value.result.q).all()
@@ -195,17 +195,17 @@ def test_a_jump_from_rest_that_nobody_names(tolerance):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"dt": 1e-4}, "give one of them"),
-        ({"intervals": 0}, "whole number from 1 on, not 0"),
-        ({"intervals": 2.5}, "whole number from 1 on, not 2.5"),
-        ({"intervals": 10, "tolerance": None}, "for steps of controlled size"),
-        ({"variant": "paper"}, "steps are of one size"),
-        ({"readings": Readings()}, "leaves nothing open"),
-        ({"tolerance": 0}, "the tolerance is a positive, finite number, not 0"),
-        ({"tolerance": "x"}, "the tolerance is a positive"),
+        ({"dt": 1e-4}, "exclude each other"),
+        ({"intervals": 0}, "positive integer, not 0"),
+        ({"intervals": 2.5}, "positive integer, not 2.5"),
+        ({"intervals": 10, "tolerance": None}, "needs adaptive steps"),
+        ({"variant": "paper"}, 'applies to variant="corrected" only'),
+        ({"readings": Readings()}, 'applies to variant="paper" only'),
+        ({"tolerance": 0}, "the tolerance must be a positive, finite number, not 0"),
+        ({"tolerance": "x"}, "the tolerance must be a positive"),
         ({"tolerance": 1e-14}, "from 1e-10 to 0.1"),
         ({"tolerance": 1}, "from 1e-10 to 0.1"),
-        ({"stop_time": -1}, "the stop time is a positive"),
+        ({"stop_time": -1}, "the stop time must be a positive"),
     ],
 )
 def test_refused(given, words):

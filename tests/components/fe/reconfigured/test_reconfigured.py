@@ -312,7 +312,7 @@ def test_limit_of_stability(damping, stable, unstable):
     dt = stable / rate
     found = simulate_reconfigured(plate(), (), 4000 * dt, dt, damping=damping, q=1e-6)
     assert np.abs(found.q[-1]).max() <= 1e-6
-    with pytest.raises(ac.DeclarationError, match=r"dt \* omega_max = .*, the limit is 2\.[89].* Take dt="):
+    with pytest.raises(ac.DeclarationError, match=r"dt \* omega_max = .*, the limit is 2\.[89].* Use dt="):
         simulate_reconfigured(plate(), (), 40 * unstable / rate, unstable / rate, damping=damping)
 
 
@@ -351,17 +351,17 @@ def test_follower():
 
 REFUSED = [
     ({"body": "face"}, 'hold="mean-axis"'),
-    ({"loads": [FrameLoad("tip", force=(0, 0, 1))]}, "no frame `tip` for a load: it has P1, end, face"),
-    ({"loads": FrameLoad("end")}, "loads are a list"),
+    ({"loads": [FrameLoad("tip", force=(0, 0, 1))]}, "no frame `tip`: it has P1, end, face"),
+    ({"loads": FrameLoad("end")}, "loads must be a list"),
     ({"loads": [FrameLoad("end", moment=(0, 0, 1))]}, "cannot carry a moment"),
     ({"loads": [FrameLoad("end", force=lambda t: 1.0)]}, "vector of three numbers"),
     ({"dt": 1e-3}, r"unstable: dt \* omega_max = 3\.75"),
-    ({"stop_time": 0.25e-4}, "no multiple of the step"),
+    ({"stop_time": 0.25e-4}, "not a multiple of the step"),
     ({"variant": "other"}, "'corrected', 'paper'"),
-    ({"readings": Readings()}, "leaves nothing open"),
+    ({"readings": Readings()}, 'applies to variant="paper" only'),
     ({"q": (1, 2)}, "one number or 10"),
-    ({"spin": (1, 2)}, "spin at the start is a vector of three numbers"),
-    ({"damping": -0.1}, "not negative"),
+    ({"spin": (1, 2)}, "spin at the start must be a vector of three numbers"),
+    ({"damping": -0.1}, "must not be negative"),
     ({"attitude": np.ones((3, 3))}, "rotation matrix"),
 ]
 
@@ -376,8 +376,8 @@ def test_refused(given, words):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"rotation": "both"}, "`rotation` is 'accumulated' or 'restarted'"),
-        ({"points": ((1, 0, 0), (-2, 0, 0))}, "on a line"),
+        ({"rotation": "both"}, "`rotation` must be 'accumulated' or 'restarted'"),
+        ({"points": ((1, 0, 0), (-2, 0, 0))}, "collinear"),
     ],
 )
 def test_refused_readings(given, words):
@@ -388,7 +388,7 @@ def test_refused_readings(given, words):
 def test_diverged():
     """Beyond its first frequency a body that spins is torn apart by what it does not stiffen by."""
     with pytest.raises(
-        ac.SimulationError, match=r"diverges in step \d+.*dt \* omega_max = 0\.37.*turns by up to"
+        ac.SimulationError, match=r"diverges in step \d+.*dt \* omega_max = 0\.37.*rotates at up to"
     ) as caught:
         simulate_reconfigured(plate(), (), 2.0, 1e-4, spin=(0, 400, 0), q=1e-4)
     assert isinstance(caught.value.result, FrameMotion)
@@ -437,7 +437,7 @@ def test_result_by_the_names_of_a_body(variant, tmp_path):
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_warns_near_the_first_frequency(variant):
     """That is 154 rad/s; both methods differ in kind there."""
-    with pytest.warns(ac.AcausalWarning, match="turns by up to 100 rad/s, faster than half"):
+    with pytest.warns(ac.AcausalWarning, match="rotates at up to 100 rad/s, faster than half"):
         simulate_reconfigured(plate(), (), 1e-3, 1e-4, variant=variant, spin=(0, 0, 100))
 
 
