@@ -31,10 +31,10 @@ def read_mesh(path: str | Path, *, E: float, nu: float, rho: float, length: floa
     Parameters
     ----------
     path : str or Path
-        Any file that meshio reads (.msh, .vtu, .vtk, .med, .bdf, ...), a deck of Abaqus or CalculiX (.inp), or an archive
-        of Ansys (.cdb), with tetrahedra of 10 or 4 nodes, bricks of 20 or bricks of 8 nodes; these get incompatible modes.
-        Tetrahedra of 4 nodes are far too stiff in bending, which a warning says. Surfaces, lines and points, and nodes of no
-        solid element, are passed over.
+        Any file that meshio reads (.msh, .vtu, .vtk, .med, .bdf, ...), a deck of Abaqus or CalculiX (.inp), or an
+        archive of Ansys (.cdb), with tetrahedra of 10 or 4 nodes, bricks of 20 or bricks of 8 nodes; these get
+        incompatible modes. Tetrahedra of 4 nodes are far too stiff in bending, which a warning says. Surfaces, lines
+        and points, and nodes of no solid element, are passed over.
     E, nu, rho : float
         Modulus of elasticity in Pa, Poisson's ratio, density in kg/m3.
     length : float

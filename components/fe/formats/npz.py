@@ -17,9 +17,9 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
     """Mass, stiffness and nodes from a .npz file.
 
     It holds the nodes as `coords_m`, `coords_mm` or `nodes`, shape (N, 3), and each of mass and stiffness as a full or
-    triangular matrix: dense under its name, or sparse in rows (CSR) as NAME_data, NAME_indices and NAME_indptr. The names
-    are `K` for the stiffness, shape (3 N, 3 N), and `M` for the mass, or `mscalar`, shape (N, N), for the mass of each
-    pair of nodes.
+    triangular matrix: dense under its name, or sparse in rows (CSR) as NAME_data, NAME_indices and NAME_indptr. The
+    names are `K` for the stiffness, shape (3 N, 3 N), and `M` for the mass, or `mscalar`, shape (N, N), for the mass of
+    each pair of nodes.
 
     Parameters
     ----------

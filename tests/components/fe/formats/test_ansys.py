@@ -42,7 +42,7 @@ def test_sample(path: Path) -> None:
     assert 0.95 < found[0] / euler < 1
     held = np.flatnonzero(K.diagonal().reshape(-1, 3).sum(axis=1) == 0)
     assert np.asarray(nodes)[held][:, 2] == pytest.approx(np.full(21, held.size and nodes[held[0], 2]))
-    with pytest.raises(DeclarationError, match="as if they were held"):
+    with pytest.raises(DeclarationError, match="as if these were fixed"):
         reduce_body(M, K, nodes, frames={"end": [0, 1, 2]})
     # The same elements by another program: reduced integration is softer, and has the same mass.
     mesh = assemble(np.asarray(nodes), nodes.cells, E=E, nu=NU, rho=RHO)
@@ -64,7 +64,7 @@ def test_files_that_end_the_process_that_reads_them(path: Path) -> None:
     content = path.read_bytes()
     for part in (b"", b"hello\n" * 100, content[:100], content[: len(content) // 3]):
         path.write_bytes(part)
-        with pytest.raises(DeclarationError, match=r"job\.full: this is not a file of Ansys, or not whole"):
+        with pytest.raises(DeclarationError, match=r"job\.full: this is not an Ansys file, or is damaged"):
             read_ansys(path)
     path.write_bytes(content)
     other = next(file for file in path.parent.iterdir() if file != path)

@@ -41,18 +41,22 @@ WRONG = {
     "twice": ("sti", lambda s: s + s.splitlines()[0] + "\n", r"the entry \(1, 1\) stands twice"),
     "equations_cut": ("dof", lambda s: s[: len(s) // 2].rsplit("\n", 1)[0] + "\n", "but there are|beyond|nodes that"),
     "equations_cut_in_a_line": ("dof", lambda s: s[:-2], "node.direction|no end"),
-    "rotation": ("dof", lambda s: s.replace("2.3", "2.4", 1), "node 2 has a freedom 4 that is no displacement"),
-    "equation_twice": ("dof", lambda s: s.replace("2.3", "2.2", 1), "an equation stands twice"),
-    "word_for_an_equation": ("dof", lambda s: s.replace("2.3", "x.3", 1), "line 6: a line holds node.direction"),
-    "huge": ("dof", lambda s: s.replace("2.3", f"{10**20}.3", 1), "no node has the number 1000"),
+    "rotation": (
+        "dof",
+        lambda s: s.replace("2.3", "2.4", 1),
+        "node 2 has the degree of freedom 4, which is not a displacement",
+    ),
+    "equation_twice": ("dof", lambda s: s.replace("2.3", "2.2", 1), "an equation occurs twice"),
+    "word_for_an_equation": ("dof", lambda s: s.replace("2.3", "x.3", 1), "line 6: a line must be node.direction"),
+    "huge": ("dof", lambda s: s.replace("2.3", f"{10**20}.3", 1), "the node number 1000"),
     "node_of_huge_number": (
         "inp",
         lambda s: s.replace("\n5,", f"\n{10**20},", 1),
         "line 6: numbers of nodes are positive",
     ),
     "node_zero": ("inp", lambda s: s.replace("\n5,", "\n0,", 1), "line 6: numbers of nodes are positive"),
-    "shell": ("dof", lambda s: s.replace("1.1\n", "900.1\n", 1), "only solid elements are read"),
-    "no_node": ("inp", lambda s: s.replace("\n5,", "\n905,", 1), "node 5 has equations or elements, but no place"),
+    "shell": ("dof", lambda s: s.replace("1.1\n", "900.1\n", 1), "only solids are supported"),
+    "no_node": ("inp", lambda s: s.replace("\n5,", "\n905,", 1), "node 5 has equations or elements, but no position"),
     "node_without_number": (
         "inp",
         lambda s: s.replace("\n5,", "\nx,", 1),
@@ -125,7 +129,7 @@ def test_units(folder: Path) -> None:
 
 def test_held_nodes_are_named(folder: Path) -> None:
     M, K, nodes = read_calculix(folder / "c3d10_held")
-    with pytest.raises(DeclarationError, match=r"held") as caught:
+    with pytest.raises(DeclarationError, match=r"were fixed") as caught:
         reduce_body(M, K, nodes, frames={"end": [68, 69, 70]}, modes=4)
     assert "nodes 0, 1, 2, 3, 27, 29, 30, 32, 33 (in the file 1, 2, 3, 4, 28, 30, 31, 33, 34)" in str(caught.value)
 

@@ -83,17 +83,20 @@ def test_solids_without_nodes_on_edges_and_surfaces(tmp_path: Path) -> None:
 WRONG = {
     "foreign": (lambda s: "hello\n", "there is no NBLOCK in it; CDWRITE,DB writes both"),
     "nodes_alone": (lambda s: s[: s.index("EBLOCK")], "there is no EBLOCK of solids in it"),
-    "cut_in_nodes": (lambda s: s[: s.index("N,R5.3")], "the file ends inside of NBLOCK, which begins in line 4"),
-    "cut_in_elements": (lambda s: s[: s.index("FINISH") - 12], "the file ends inside of EBLOCK"),
+    "cut_in_nodes": (lambda s: s[: s.index("N,R5.3")], "it ends inside NBLOCK, which begins in line 4"),
+    "cut_in_elements": (lambda s: s[: s.index("FINISH") - 12], "it ends inside EBLOCK"),
     "half_an_element": (
         lambda s: "\n".join([*s.split("\n")[:-4], *s.split("\n")[-3:]]),
-        "element 2 has 8 nodes in place of 20",
+        "element 2 has 8 nodes instead of 20",
     ),
-    "no_format": (lambda s: s.replace("(3i9,6e21.13e3)", "hello", 1), "line 5: NBLOCK needs the format of its lines"),
-    "word": (lambda s: s.replace("E-02", "x-02", 1), "x, y, z of a node are numbers"),
-    "type": (lambda s: s.replace("ET,        1", "ET,        2", 1), "of a type that no ET gives"),
-    "node": (lambda s: s.replace("       11       ", "       12       ", 1), "names node 11, which is not in the file"),
-    "letters": (lambda s: s.replace("(19i9)\n        1", "(19i9)\n        x", 1), "whole numbers are expected here"),
+    "no_format": (lambda s: s.replace("(3i9,6e21.13e3)", "hello", 1), "line 5: NBLOCK must begin with its format"),
+    "word": (lambda s: s.replace("E-02", "x-02", 1), "x, y, z of a node must be numbers"),
+    "type": (lambda s: s.replace("ET,        1", "ET,        2", 1), "a type that no ET defines"),
+    "node": (
+        lambda s: s.replace("       11       ", "       12       ", 1),
+        "refers to node 11, which is not in the file",
+    ),
+    "letters": (lambda s: s.replace("(19i9)\n        1", "(19i9)\n        x", 1), "integers are expected here"),
 }
 
 
