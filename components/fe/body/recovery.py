@@ -122,10 +122,7 @@ class NodalResult:
         return self._resolved(self._a[:, None] + spin + 2 * np.cross(w, rate) + second, axes)
 
     def stress(self, *, E: float, nu: float, at: str = "points") -> Any:
-        """Return stresses of the elements in the axes of the body.
-
-        With few modes, stresses are less accurate than displacements: the stresses near a loaded frame need the static
-        modes of a Craig-Bampton basis.
+        """Return stresses of the elements in the axes of the body; near loaded frames they need a Craig-Bampton basis.
 
         Parameters
         ----------
