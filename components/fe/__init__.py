@@ -2,14 +2,15 @@
 
 from typing import TYPE_CHECKING, Any
 
+from components.fe.body.fe_body import FEBody
 from components.fe.elements import assemble, box
-from components.fe.fe_body import FEBody
 from components.fe.formats import read_npz
-from components.fe.nodal_field import NodalField
-from components.fe.nodes import Nodes
-from components.fe.reduced_body import Interface, ReducedBody
-from components.fe.reduction import reduce_body
-from components.fe.spiders import average, frame_at, rigid
+from components.fe.nodes import Nodes, rows_of
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.nodal_field import NodalField
+from components.fe.reduction.reduce import reduce_body
+from components.fe.reduction.reduced_body import ReducedBody
+from components.fe.reduction.spiders import average, frame_at, rigid
 
 __all__ = [
     "FEBody",
@@ -44,6 +45,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from components.fe.body.recovery import NodalResult
     from components.fe.formats.abaqus import read_abaqus
     from components.fe.formats.ansys import read_ansys
     from components.fe.formats.calculix import read_calculix
@@ -51,23 +53,21 @@ if TYPE_CHECKING:
     from components.fe.formats.mesh import read_mesh
     from components.fe.formats.nastran import read_nastran
     from components.fe.formats.sid import read_sid, write_sid
-    from components.fe.frame_load import FrameLoad
-    from components.fe.frame_motion import FrameMotion
-    from components.fe.frame_result import as_result
-    from components.fe.frame_run import by_steps, run_reconfigured
-    from components.fe.frame_steps import Readings
-    from components.fe.nodes import rows_of
-    from components.fe.reconfigured import simulate_reconfigured
-    from components.fe.recover import NodalResult
+    from components.fe.reconfigured.load import FrameLoad
+    from components.fe.reconfigured.motion import FrameMotion
+    from components.fe.reconfigured.result import as_result
+    from components.fe.reconfigured.scene_run import by_steps, run_reconfigured
+    from components.fe.reconfigured.simulate import simulate_reconfigured
+    from components.fe.reconfigured.steps import Readings
 
-# What models do not use; some of it loads scipy.sparse.
+# Names that models rarely use, imported on first access: some of their modules load scipy.sparse.
 _LATER = {
-    "FrameLoad": "frame_load",
-    "FrameMotion": "frame_motion",
-    "NodalResult": "recover",
-    "Readings": "frame_steps",
-    "as_result": "frame_result",
-    "by_steps": "frame_run",
+    "FrameLoad": "reconfigured.load",
+    "FrameMotion": "reconfigured.motion",
+    "NodalResult": "body.recovery",
+    "Readings": "reconfigured.steps",
+    "as_result": "reconfigured.result",
+    "by_steps": "reconfigured.scene_run",
     "read_abaqus": "formats.abaqus",
     "read_ansys": "formats.ansys",
     "read_calculix": "formats.calculix",
@@ -75,9 +75,8 @@ _LATER = {
     "read_mesh": "formats.mesh",
     "read_nastran": "formats.nastran",
     "read_sid": "formats.sid",
-    "rows_of": "nodes",
-    "run_reconfigured": "frame_run",
-    "simulate_reconfigured": "reconfigured",
+    "run_reconfigured": "reconfigured.scene_run",
+    "simulate_reconfigured": "reconfigured.simulate",
     "write_sid": "formats.sid",
 }
 

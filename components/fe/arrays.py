@@ -1,4 +1,4 @@
-"""Arrays of reduced bodies: of one shape, finite, and never changed."""
+"""Validated, read-only arrays of reduced bodies."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ Array = np.ndarray
 
 
 def frozen(values: Any, shape: tuple[int, ...], what: str) -> Array:
-    """An array of its own that nobody can change, with the shape that is needed."""
-    array = np.array(values, dtype=float, order="C") + 0.0  # -0.0 and 0.0 are one value in a digest
+    """Return a read-only copy of `values`, checked for its shape and for finite numbers."""
+    array = np.array(values, dtype=float, order="C") + 0.0  # + 0.0: -0.0 and 0.0 get the same digest
     if array.shape != shape:
-        raise DeclarationError(f"{what} has shape {array.shape} where {shape} is needed")
+        raise DeclarationError(f"{what} must have shape {shape}, not {array.shape}")
     if not np.isfinite(array).all():
-        raise DeclarationError(f"{what} holds numbers that are not finite")
+        raise DeclarationError(f"{what} contains numbers that are not finite")
     array.setflags(write=False)
     return array

@@ -1,4 +1,4 @@
-"""Nodes of a mesh that know their numbers in the file, and the elements between them."""
+"""Nodes of a mesh, with their numbers in the file and the elements between them."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ import numpy as np
 
 from acausal import DeclarationError
 
-SHOWN = 12  # nodes that a message names
+SHOWN = 12  # nodes listed in a message
 
 
 class Nodes(np.ndarray):
-    """Positions of nodes, shape (n, 3), in m: an array like any other, which also knows where it comes from.
+    """Positions of nodes in m, shape (n, 3): an array that also holds node numbers and elements.
 
-    Whatever is computed from it, a part of it included, is a plain array; a copy knows neither numbers nor cells.
+    Slices and results of computations are plain arrays; copies have neither numbers nor cells.
 
     Attributes
     ----------
     numbers : array of int, shape (n,), or None
-        Number of each node in the file; None where rows are all there is.
+        Number of each node in the file; None if nodes are known by rows only.
     cells : dict from str to array, shape (elements, nodes of one)
-        Elements by the names that meshio has for their kinds, as rows of this array; empty where none are known.
+        Elements by meshio's names of their types, as rows of this array; empty if unknown.
     """
 
     numbers: np.ndarray | None
@@ -47,25 +47,27 @@ class Nodes(np.ndarray):
 
 
 def rows_of(nodes: np.ndarray, numbers: Sequence[int]) -> list[int]:
-    """Return the rows of nodes that have these numbers in the file from which they were read.
+    """Return the rows of the nodes with these numbers in their file.
 
     Raises
     ------
     DeclarationError
-        If the array knows no numbers, or has no node of one of these.
+        If the array has no node numbers, or none of its nodes has a number of the list.
     """
     known = getattr(nodes, "numbers", None)
     if known is None:
-        raise DeclarationError("these nodes have no numbers, but only rows, counted from 0")
+        raise DeclarationError("these nodes have no numbers; use rows, counted from 0")
     rows = {int(name): row for row, name in enumerate(known)}
     missing = [name for name in numbers if name not in rows]
     if missing:
-        raise DeclarationError(f"there is no node {missing[0]} in the file, whose nodes are {min(rows)} to {max(rows)}")
+        raise DeclarationError(
+            f"there is no node {missing[0]} in the file; its node numbers are {min(rows)} to {max(rows)}"
+        )
     return [rows[name] for name in numbers]
 
 
 def named(nodes: Any, rows: Sequence[int] | np.ndarray) -> str:
-    """Return nodes for a message: rows counted from 0, and the numbers in the file where these are known."""
+    """Return the nodes of a message: rows counted from 0, followed by their numbers in the file if known."""
     shown = ", ".join(str(row) for row in rows[:SHOWN]) + (
         f" and {len(rows) - SHOWN} more" if len(rows) > SHOWN else ""
     )

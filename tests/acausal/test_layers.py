@@ -65,19 +65,19 @@ EXTRAS = {
     "components/gradient.py": {"casadi"},
     "components/fe/elements/quadratic.py": {"skfem"},
     "components/fe/formats/ansys_process.py": {"ansys"},
-    "components/fe/recover.py": {"meshio"},
+    "components/fe/body/recovery.py": {"meshio"},
     "components/fe/__main__.py": {"typer"},
 }
 # Files of components that read and write files, or are a command, as the engine does.
 FILES = {"acausal.result", "acausal.result.files"}
 INSIDE = {
-    "components/fe/archive.py": FILES,
-    "components/fe/formats/foreign.py": FILES,
-    "components/fe/formats/kinds.py": FILES,
+    "components/fe/reduction/archive.py": FILES,
+    "components/fe/formats/third_party.py": FILES,
+    "components/fe/formats/readers.py": FILES,
     "components/fe/formats/matrix_market.py": FILES,
     "components/fe/formats/sid.py": FILES,
     "components/fe/formats/text.py": FILES,
-    "components/fe/recover.py": FILES,
+    "components/fe/body/recovery.py": FILES,
     "components/fe/__main__.py": FILES
     | {"acausal.cli.common", "acausal.cli.output", "acausal.cli.streams", "acausal.cli.option_values"},
 }

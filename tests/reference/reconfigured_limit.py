@@ -14,8 +14,8 @@ import numpy as np
 
 from acausal import as_expr, cross, der, dot, fixed, part, quantity
 from components.fe import FEBody
-from components.fe.chosen import critical_damping
-from components.fe.modal_inertia import ModalInertia, _tensor
+from components.fe.body.modal_inertia import ModalInertia, _tensor
+from components.fe.body.modal_properties import critical_damping
 from components.frame import move
 from components.orientation import null_rotation, resolve1, rodrigues_rotation
 from models import FEPlate

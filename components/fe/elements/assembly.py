@@ -1,4 +1,4 @@
-"""Mass and stiffness of a mesh."""
+"""Assembly of the mass and stiffness matrices of a mesh."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from components.fe.nodes import Nodes
 
 NODES = {"hexahedron": 8, "hexahedron20": 20, "tetra10": 10, "tetra": 4}
 OWN = {"hexahedron": brick.matrices, "tetra": tetrahedron.matrices}
-# Elements that are integrated at once: a brick has 9 kB.
+# Elements integrated in one batch, to bound the memory: a brick takes 9 kB, a batch 180 MB.
 BATCH = 20_000
-# Kinds of a mesh that are no solids: its surfaces, lines and points.
+# Element types of surfaces, lines and points, which are ignored.
 FLAT = ("vertex", "line", "triangle", "quad")
 
 
 def assemble(
     points: Any, cells: Mapping[str, Any] | Iterable[tuple[str, Any]], *, E: float, nu: float, rho: float
 ) -> tuple[Any, Any, Nodes]:
-    """Mass and stiffness of a solid of one material.
+    """Assemble the mass and stiffness matrices of a homogeneous solid.
 
     Parameters
     ----------
     points : array, shape (N, 3)
-        Places of the nodes in m.
+        Positions of the nodes in m.
     cells : mapping or pairs from str to array, shape (elements, nodes of one)
-        Nodes of the elements by meshio's names of their kinds: "hexahedron" (with incompatible modes), "hexahedron20"
-        and "tetra10" (isoparametric: edges may be curved), and "tetra" (far too stiff in
-        bending). Surfaces, lines and points of a mesh are passed over.
+        Nodes of the elements by meshio's names of their types: "hexahedron" (with incompatible modes), "hexahedron20"
+        and "tetra10" (isoparametric, so edges may be curved), and "tetra" (far too stiff in bending). Surfaces, lines
+        and points are ignored.
     E, nu, rho : float
-        Modulus of elasticity in Pa, Poisson's ratio, density in kg/m3.
+        Young's modulus in Pa, Poisson's ratio, density in kg/m3.
 
     Returns
     -------
@@ -46,17 +46,15 @@ def assemble(
     Raises
     ------
     DeclarationError
-        If a kind of element is not known, an element is folded or names nodes that are not there, or a node
-        belongs to none.
+        If an element type is unknown, an element is inverted or refers to a node that does not exist, or a node belongs
+        to no element.
     """
     from scipy.sparse import bmat, csr_array, kron
 
     material = Material(E, nu, rho)
     points = np.asarray(points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
-        raise DeclarationError(
-            f"points of a mesh have shape (N, 3) and are finite, unlike these of shape {points.shape}"
-        )
+        raise DeclarationError(f"points of a mesh must be finite and of shape (N, 3); these have shape {points.shape}")
     count = len(points)
     mass, blocks = csr_array((count, count)), np.full((3, 3), csr_array((count, count)), dtype=object)
     used = np.zeros(count, dtype=bool)
@@ -69,9 +67,9 @@ def assemble(
     if not used.all():
         lone = np.flatnonzero(~used)
         raise DeclarationError(
-            f"{len(lone)} nodes belong to no solid element, the first of them {lone[:5].tolist()}: remove them"
+            f"{len(lone)} nodes belong to no solid element, the first are {lone[:5].tolist()}; remove them"
         )
-    order = np.arange(3 * count).reshape(3, count).T.ravel()  # from x of all, y of all, z of all
+    order = np.arange(3 * count).reshape(3, count).T.ravel()  # reorder from x, y, z of all nodes to x, y, z of each
     K = csr_array(bmat(blocks.tolist(), format="csr"))[order][:, order]
     return csr_array(kron(mass, np.eye(3), format="csr")), (K + K.T) / 2, Nodes(points, cells=_joined(solids))
 
@@ -82,18 +80,18 @@ def _solids(cells: Any, count: int) -> list[tuple[str, np.ndarray]]:
         if kind.startswith(FLAT):
             continue
         if kind not in NODES:
-            raise DeclarationError(f"elements of the kind {kind!r} are not known, only {', '.join(NODES)}")
+            raise DeclarationError(f"unknown element type {kind!r}; known types are {', '.join(NODES)}")
         members = np.asarray(members)
         if members.ndim != 2 or members.shape[1] != NODES[kind] or not np.issubdtype(members.dtype, np.integer):
             raise DeclarationError(
-                f"a {kind} has {NODES[kind]} whole numbers of nodes; these have shape {members.shape}"
+                f"cells of type {kind} need {NODES[kind]} integer node indices each; these have shape {members.shape}"
             )
         if members.size and (members.min() < 0 or members.max() >= count):
-            raise DeclarationError(f"a {kind} names a node that is none of 0 to {count - 1}")
+            raise DeclarationError(f"a {kind} refers to a node outside 0 to {count - 1}")
         if len(members):
             found.append((kind, members))
     if not found:
-        raise DeclarationError(f"the mesh has no solid elements of the kinds {', '.join(NODES)}")
+        raise DeclarationError(f"the mesh has no solid elements ({', '.join(NODES)})")
     return found
 
 

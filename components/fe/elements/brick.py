@@ -1,8 +1,8 @@
-"""Brick of eight nodes with incompatible modes, which are condensed: it bends without locking.
+"""Eight-node brick with incompatible modes, statically condensed: it bends without locking.
 
 Taylor, Beresford and Wilson, "A non-conforming element for stress analysis", Int. J. Num. Meth. Eng. 10 (1976): the
-displacement holds 1 - xi^2, 1 - eta^2, 1 - zeta^2 beside the eight shape functions; their gradients are taken with the
-Jacobian of the centre, so that a constant strain stays exact in an element of any shape. They have no mass.
+displacement contains 1 - xi^2, 1 - eta^2, 1 - zeta^2 in addition to the eight shape functions. Their gradients use the
+Jacobian at the centre, so that elements of any shape pass the patch test. They have no mass.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ POINTS = CORNERS / np.sqrt(3)  # Gauss points of weight 1
 
 
 def shapes(at: np.ndarray) -> np.ndarray:
-    """The eight shape functions at a point of the reference cube, shape (8,)."""
+    """Return the eight shape functions at a point of the reference cube, shape (8,)."""
     return np.prod(1 + CORNERS * at, axis=1) / 8
 
 
 def slopes(at: np.ndarray) -> np.ndarray:
-    """Their derivatives by xi, eta, zeta, shape (8, 3)."""
+    """Return the derivatives of the shape functions by xi, eta, zeta, shape (8, 3)."""
     parts = 1 + CORNERS * at
     others = [parts[:, 1] * parts[:, 2], parts[:, 0] * parts[:, 2], parts[:, 0] * parts[:, 1]]
     return CORNERS * np.stack(others, axis=1) / 8
 
 
 def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[np.ndarray, np.ndarray]:
-    """Masses of pairs of nodes and stiffness of each brick.
+    """Return the consistent mass and condensed stiffness matrices of the bricks.
 
     Parameters
     ----------
     points : array, shape (N, 3)
-        Places of the nodes in m.
+        Positions of the nodes in m.
     cells : array, shape (elements, 8)
         Nodes of each brick: one face, then the opposite one in the same order.
     material : Material
@@ -45,7 +45,7 @@ def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple
     Returns
     -------
     mass : array, shape (elements, 8, 8)
-        In kg.
+        In kg, the same for each direction.
     stiffness : array, shape (elements, 8, 3, 8, 3)
         In N/m.
     """
@@ -56,20 +56,20 @@ def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple
 
 
 def incompatible(points: np.ndarray, cells: np.ndarray, material: Material) -> np.ndarray:
-    """Amplitudes of the incompatible modes by displacements of the corners, shape (elements, 3, 3, 8, 3)."""
+    """Return the map from corner displacements to amplitudes of incompatible modes, shape (elements, 3, 3, 8, 3)."""
     _, full = integrals(points, cells, material)
     return -np.linalg.solve(full[:, 24:, 24:], full[:, 24:, :24]).reshape(len(cells), 3, 3, 8, 3)
 
 
 def gradients(corners: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Gradients of shape functions and incompatible modes at a point of the reference cube, and the weight of volume.
+    """Return the gradients of shape functions and incompatible modes at a point of the reference cube.
 
     Parameters
     ----------
     corners : array, shape (elements, 8, 3)
-        Places in m.
+        Positions of the corners in m.
     at : array, shape (3,)
-        From -1 to 1.
+        Point, coordinates from -1 to 1.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def gradients(corners: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 
 def integrals(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[np.ndarray, np.ndarray]:
-    """Masses of pairs of nodes, shape (elements, 8, 8), and stiffness with incompatible modes, (elements, 33, 33)."""
+    """Return the mass, shape (elements, 8, 8), and the stiffness before condensation, (elements, 33, 33)."""
     corners = points[cells]
     mass = np.zeros((len(cells), 8, 8))
     products = np.zeros((3, 3, len(cells), 11, 11))
@@ -95,7 +95,9 @@ def integrals(points: np.ndarray, cells: np.ndarray, material: Material) -> tupl
         volume = np.linalg.det(np.einsum("eia,ix->eax", corners, slopes(at)))
         if (volume <= 0).any():
             wrong = int(np.flatnonzero(volume <= 0)[0])
-            raise DeclarationError(f"the brick of nodes {cells[wrong].tolist()} is turned inside out or folded")
+            raise DeclarationError(
+                f"the brick of nodes {cells[wrong].tolist()} is inverted: its Jacobian determinant is not positive"
+            )
         both, weight = gradients(corners, at)
         mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
         products += np.einsum("e,eia,ejb->abeij", weight, both, both)

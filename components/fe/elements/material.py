@@ -1,4 +1,4 @@
-"""A linear elastic, isotropic solid."""
+"""Linear elastic, isotropic material."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from acausal import DeclarationError
 
 @dataclass(frozen=True)
 class Material:
-    """Modulus of elasticity E in Pa, Poisson's ratio nu, density rho in kg/m3.
+    """Young's modulus E in Pa, Poisson's ratio nu, density rho in kg/m3.
 
     Raises
     ------
     DeclarationError
-        If E or rho is not positive, or nu not above -1 and below 1/2: an incompressible solid needs other elements.
+        If E or rho is not positive, or nu is not between -1 and 1/2: incompressible solids need mixed elements.
     """
 
     E: float
@@ -26,9 +26,9 @@ class Material:
     def __post_init__(self) -> None:
         for name in ("E", "rho"):
             if not 0 < getattr(self, name) < np.inf:
-                raise DeclarationError(f"{name} of a solid is positive, not {getattr(self, name)!r}")
+                raise DeclarationError(f"{name} must be positive, not {getattr(self, name)!r}")
         if not -1 < self.nu < 0.5:
-            raise DeclarationError(f"nu of a solid lies above -1 and below 0.5, which {self.nu!r} does not")
+            raise DeclarationError(f"nu must lie between -1 and 0.5, not {self.nu!r}")
 
     @property
     def lame(self) -> tuple[float, float]:
@@ -36,12 +36,12 @@ class Material:
         return self.E * self.nu / ((1 + self.nu) * (1 - 2 * self.nu)), self.E / (2 * (1 + self.nu))
 
     def stiffness(self, gradients: np.ndarray) -> np.ndarray:
-        """Stiffness blocks from the integrals of d_a N_i d_b N_j.
+        """Return the stiffness blocks from the integrals of d_a N_i d_b N_j.
 
         Parameters
         ----------
         gradients : array, shape (3, 3, ...)
-            The integrals for a and b; what follows runs over i and j.
+            The integrals for directions a and b; the other axes run over i and j.
 
         Returns
         -------

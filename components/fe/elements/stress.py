@@ -1,4 +1,4 @@
-"""Stresses of a mesh from displacements of its nodes: at points inside of the elements, and from these at the nodes."""
+"""Stress recovery: stresses at the Barlow points of elements, extrapolated to their nodes."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from acausal import DeclarationError
 from components.fe.elements import brick, quadratic, tetrahedron
 from components.fe.elements.material import Material
 
-# Stresses in the order of most programs.
+# Order of the stress components, that of most FE programs.
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "zx")
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 _CUBE = np.array(list(product((-1.0, 1.0), repeat=3))) / np.sqrt(3)
 _A, _B = (5 + 3 * np.sqrt(5)) / 20, (5 - np.sqrt(5)) / 20
-# Barlow points: there stresses of the displacements are as good as the displacements; Gauss points of the stiffness or of
-# one order less, in the elements' own coordinates.
+# Barlow points, where stresses converge as fast as displacements: Gauss points of the stiffness integration or of one
+# order less, in reference coordinates.
 POINTS = {
     "hexahedron": _CUBE,
     "hexahedron20": (1 + _CUBE) / 2,
@@ -26,14 +26,14 @@ POINTS = {
 
 
 def operator(kind: str, points: np.ndarray, cells: np.ndarray, material: Material) -> np.ndarray:
-    """Stresses in Pa at the `POINTS` of each element by displacements of its nodes in m.
+    """Return the matrices that map nodal displacements in m to stresses in Pa at the `POINTS` of each element.
 
     Parameters
     ----------
     kind : str
-        "hexahedron" (with incompatible modes, as `box` and `assemble` make it), "hexahedron20", "tetra10" or "tetra".
+        "hexahedron" (with incompatible modes, as in `box` and `assemble`), "hexahedron20", "tetra10" or "tetra".
     points : array, shape (N, 3)
-        Places of the nodes in m.
+        Positions of the nodes in m.
     cells : array, shape (elements, k)
         Nodes of each element, in the order of meshio.
     material : Material
@@ -41,16 +41,16 @@ def operator(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
 
     Returns
     -------
-    array, shape (elements, points of one, 6, k, 3)
-        In the order of `COMPONENTS`.
+    array, shape (elements, points, 6, k, 3)
+        Components in the order of `COMPONENTS`.
 
     Raises
     ------
     DeclarationError
-        If stresses of this kind of element are not known.
+        If stresses are not implemented for this element type.
     """
     if kind not in POINTS:
-        raise DeclarationError(f"stresses are known of elements {', '.join(POINTS)}, not of {kind}")
+        raise DeclarationError(f"stresses are implemented for elements {', '.join(POINTS)}, not for {kind}")
     if kind == "hexahedron":
         bubbles = brick.incompatible(points, cells, material)
         parts = [brick.gradients(points[cells], at)[0] for at in POINTS[kind]]
@@ -63,7 +63,7 @@ def operator(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
 
 
 def to_nodes(kind: str) -> np.ndarray:
-    """Values at the nodes of an element by values at its `POINTS`, shape (nodes, points): linear in each coordinate."""
+    """Return the extrapolation from `POINTS` to the nodes, linear in each coordinate, shape (nodes, points)."""
     if kind == "tetra":
         return np.ones((4, 1))
     places = brick.CORNERS if kind == "hexahedron" else _places(kind)
@@ -81,16 +81,16 @@ def _monomials(places: np.ndarray, powers: np.ndarray) -> np.ndarray:
 
 
 def _gradients(kind: str, places: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Gradients of the shape functions at a point, shape (elements, nodes, 3)."""
+    """Return the gradients of the shape functions at a point, shape (elements, nodes, 3)."""
     slopes = _slopes(kind, at)
     jacobian = np.einsum("eia,ix->eax", places, slopes)
     return np.einsum("ix,exa->eia", slopes, np.linalg.inv(jacobian))
 
 
 def _slopes(kind: str, at: np.ndarray) -> np.ndarray:
-    """Derivatives of the shape functions: polynomials that are 1 at one node and 0 at the others."""
+    """Return the derivatives of the shape functions, the Lagrange polynomials of the nodes."""
     every = np.array(list(product(range(3), repeat=3)))
-    # Of degree 2, or serendipity: one square at most.
+    # Degree 2, or serendipity: at most one squared coordinate.
     few = every.sum(axis=1) <= 2 if kind == "tetra10" else (every == 2).sum(axis=1) <= 1
     powers = every[few]
     derived = [
@@ -100,7 +100,7 @@ def _slopes(kind: str, at: np.ndarray) -> np.ndarray:
 
 
 def _strain(gradients: np.ndarray) -> np.ndarray:
-    """Strains, shear as angles, by displacements: shape (elements, 6, nodes, 3)."""
+    """Return the strain-displacement matrices with engineering shear strains, shape (elements, 6, nodes, 3)."""
     found = np.zeros((len(gradients), 6, gradients.shape[1], 3))
     for row, (a, b) in enumerate(_PAIRS):
         found[:, row, :, a] = gradients[:, :, b]

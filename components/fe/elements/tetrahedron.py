@@ -1,4 +1,4 @@
-"""Tetrahedra of 4 nodes: constant strain."""
+"""Linear tetrahedron with four nodes (constant strain)."""
 
 from __future__ import annotations
 
@@ -7,28 +7,28 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.elements.material import Material
 
-_SLOPES = np.vstack([-np.ones(3), np.eye(3)])  # of the shape functions in the element's own coordinates
+_SLOPES = np.vstack([-np.ones(3), np.eye(3)])  # derivatives of the shape functions by the reference coordinates
 
 
 def gradients(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
-    """Return gradients of the shape functions in 1/m, shape (elements, 4, 3)."""
+    """Return the gradients of the shape functions in 1/m, shape (elements, 4, 3)."""
     return np.einsum("ix,exa->eia", _SLOPES, np.linalg.inv(_edges(points, cells)))
 
 
 def _edges(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
-    """Edges from the first corner as columns: the Jacobian, shape (elements, 3, 3)."""
+    """Return the Jacobian, whose columns are the edges from the first corner, shape (elements, 3, 3)."""
     return np.swapaxes(points[cells[:, 1:]] - points[cells[:, :1]], 1, 2)
 
 
 def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[np.ndarray, np.ndarray]:
-    """Masses of pairs of nodes and stiffness of each element.
+    """Return the consistent mass and stiffness matrices of the elements.
 
     Parameters
     ----------
     points : array, shape (N, 3)
-        Places of the nodes in m.
+        Positions of the nodes in m.
     cells : array, shape (elements, 4)
-        Nodes of each element, the fourth where the first three turn anticlockwise seen from it.
+        Nodes of each element; seen from the fourth, the first three are anticlockwise.
     material : Material
         The solid.
 
@@ -42,12 +42,12 @@ def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple
     Raises
     ------
     DeclarationError
-        If an element is turned inside out or flat.
+        If an element is inverted or flat.
     """
     volumes = np.linalg.det(_edges(points, cells)) / 6
     if (volumes <= 0).any():
         wrong = cells[np.flatnonzero(volumes <= 0)[0]].tolist()
-        raise DeclarationError(f"the tetra of nodes {wrong} is turned inside out or folded")
+        raise DeclarationError(f"the tetra of nodes {wrong} is inverted: its Jacobian determinant is not positive")
     slopes = gradients(points, cells)
     mass = material.rho * volumes[:, None, None] * (np.ones((4, 4)) + np.eye(4)) / 20
     first, second = material.lame

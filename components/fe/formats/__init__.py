@@ -1,4 +1,4 @@
-"""Mass and stiffness matrices from files, one format a module."""
+"""Readers of mass and stiffness matrices, meshes and SIDs, one module for each format."""
 
 from components.fe.formats.npz import read_npz
 

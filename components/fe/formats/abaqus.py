@@ -1,4 +1,4 @@
-"""Matrices of Abaqus: what `*MATRIX OUTPUT` writes, and the nodes of the input file."""
+"""Abaqus: matrices of `*MATRIX OUTPUT`, nodes of the input file."""
 
 from __future__ import annotations
 
@@ -18,46 +18,47 @@ from components.fe.formats.text import table, text_of, whole_numbers, wrong
 from components.fe.nodes import Nodes
 
 FILE = re.compile(r"(?P<job>.+)_(?P<kind>STIF|MASS)(?P<step>\d*)\.mtx", re.IGNORECASE)
-BEGINNING = 10_000  # characters with the heading of a matrix and its first entry
-HELD = 1e36  # what Abaqus adds to the diagonal where a boundary condition holds a node
-# Of the forces that hold each entry's share: far above rounding of 15 digits, far below any other order of equations.
+BEGINNING = 10_000  # characters that contain the header and the first entry of a matrix
+HELD = 1e36  # term that Abaqus adds to the diagonal at boundary conditions
+# Force of a rigid motion, relative to the sum of its absolute terms: far above round-off of 15 digits, far below the
+# effect of another order of equations.
 RIGID = 1e-6
 
 
 def read_abaqus(path: str | Path | Sequence[str | Path], *, length: float = 1.0, mass: float = 1.0) -> Matrices:
-    """Return mass and stiffness matrix and nodes of an Abaqus job with `*MATRIX GENERATE, STIFFNESS, MASS`.
+    """Read mass matrix, stiffness matrix and nodes of an Abaqus job with `*MATRIX GENERATE, STIFFNESS, MASS`.
 
-    `*MATRIX OUTPUT, STIFFNESS, MASS` with FORMAT=MATRIX INPUT (or LABELS), in which every entry names its nodes, or
-    FORMAT=COORDINATE, in which equations are taken as x, y, z of the nodes in ascending order of their numbers. That the
-    stiffness resists no rigid motion of the nodes shows whether they belong to the equations.
+    Formats of `*MATRIX OUTPUT, STIFFNESS, MASS` are FORMAT=MATRIX INPUT (or LABELS), in which entries name their nodes,
+    and FORMAT=COORDINATE, with equations x, y, z of the nodes in ascending order of their numbers. This order is
+    verified: the stiffness must not resist rigid-body motions of the nodes.
 
-    The unit of time is the second: K, in force per length, is a mass per s2 and scales as M does, by `mass` alone.
-    Equations of held nodes, to whose diagonal Abaqus adds 1e36, are left empty in both matrices, and `reduce_body` refuses
-    such a body and names the nodes.
+    The unit of time must be the second. K, a force per length, is a mass per s2 and scales with `mass`, as M does.
+    Equations of fixed nodes, marked by 1e36 on the diagonal, are empty in both matrices; `reduce_body` then refuses the
+    body and names the nodes.
 
     Parameters
     ----------
     path : str, Path or sequence of three
-        JOB.inp, JOB or one of the matrices: JOB_STIF1.mtx and JOB_MASS1.mtx (the number is that of the step) stand
-        beside JOB.inp. Files of other names, or in other folders, are given as three: mass matrix, stiffness matrix, input
-        file. A deck of parts is read where it has one instance.
+        JOB.inp, JOB or one of the matrices, with JOB_STIF1.mtx and JOB_MASS1.mtx (the number is that of the step) in
+        the folder of JOB.inp; or three files: mass matrix, stiffness matrix, input file. A deck with parts must have a
+        single instance.
     length : float
-        Unit of length of the job in m: 1e-3 for mm. Nodes are multiplied by it.
+        Unit of length of the job in m: 1e-3 for mm. Scales the nodes.
     mass : float
-        Unit of mass of the job in kg: 1e3 for mm, N, s, where the unit is the Mg. M and K are multiplied by it.
+        Unit of mass of the job in kg: 1e3 for mm, N, s, where the unit is the Mg. Scales M and K.
 
     Returns
     -------
     M, K : sparse (3 n, 3 n)
         In kg and N/m; equations x, y, z of each node, in the global axes.
     nodes : Nodes (n, 3)
-        In m, in ascending order of their numbers, which `nodes.numbers` holds.
+        Positions in m, in ascending order of the node numbers `nodes.numbers`.
 
     Raises
     ------
     DeclarationError
-        If a file is missing, cut off or of another kind, the body has freedoms other than displacements, or the nodes do
-        not belong to the equations.
+        If a file is missing, truncated or of another format, nodes have degrees of freedom other than displacements, or
+        nodes and equations do not match.
     """
     masses, stiffness, inp = _files(Path(path)) if isinstance(path, str | Path) else _three(path)
     deck, move = instance_of(list(blocks(inp)))
@@ -65,7 +66,7 @@ def read_abaqus(path: str | Path | Sequence[str | Path], *, length: float = 1.0,
     numbers = np.unique(np.array([node for _, nodes in found for node in nodes], dtype=np.int64))
     missing = [name for name in numbers.tolist() if name not in places]
     if missing or not numbers.size:
-        what = f"node {missing[0]} has elements, but no place under *NODE" if missing else "there are no elements"
+        what = f"node {missing[0]} has elements, but no position under *NODE" if missing else "there are no elements"
         raise wrong(inp, what)
     nodes = move(np.array([places[name] for name in numbers.tolist()]))
     n = 3 * numbers.size
@@ -77,15 +78,15 @@ def read_abaqus(path: str | Path | Sequence[str | Path], *, length: float = 1.0,
     elif (force := rigid_forces(K, nodes)) > RIGID:
         raise wrong(
             stiffness,
-            f"the {n} equations resist rigid motions of the nodes ({force:.1g} of the largest forces): the equations are in "
-            f"another order than the nodes in {inp.name}, or a spring or contact holds the body; FORMAT=MATRIX INPUT names nodes",
+            f"the {n} equations resist rigid-body motions of the nodes ({force:.1g} of the largest forces): their order differs "
+            f"from that of the nodes in {inp.name}, or a spring or contact holds the body; use FORMAT=MATRIX INPUT",
         )
     cells = cells_of(found, {name: row for row, name in enumerate(numbers.tolist())})
     return mass * M, mass * K, Nodes(length * nodes, numbers, cells)
 
 
 def is_abaqus(path: str | Path) -> bool:
-    """Return whether a file is a matrix of Abaqus, by its name, or such files stand beside it."""
+    """Return whether a file is an Abaqus matrix by its name, or has such files in its folder."""
     path = Path(path)
     return bool(FILE.fullmatch(path.name)) or bool(_beside(path.parent, path.stem, "STIF"))
 
@@ -93,7 +94,7 @@ def is_abaqus(path: str | Path) -> bool:
 def _three(paths: Sequence[str | Path]) -> list[Path]:
     files = [Path(path) for path in paths]
     if len(files) != 3:
-        raise DeclarationError("files of Abaqus are three: mass matrix, stiffness matrix, input file")
+        raise DeclarationError("pass three files of Abaqus: mass matrix, stiffness matrix, input file")
     return files
 
 
@@ -108,7 +109,7 @@ def _files(path: Path) -> list[Path]:
             files = [file for file in files if FILE.fullmatch(file.name)["step"] == named["step"]]  # pyright: ignore
         if len(files) > 1:
             raise wrong(
-                path, f"there are several matrices, {', '.join(file.name for file in files)}; give the name of one"
+                path, f"there are several matrices, {', '.join(file.name for file in files)}; pass the name of one"
             )
         if not files:
             raise wrong(path, f"there is no matrix {job}_{kind}1.mtx in its folder")
@@ -124,14 +125,14 @@ def _beside(folder: Path, job: str, kind: str) -> list[Path]:
 
 
 def _matrix(path: Path, numbers: np.ndarray) -> Any:
-    """The matrix with the equations of these nodes."""
+    """Read the matrix of these nodes."""
     n = 3 * numbers.size
     columns = _columns(path)
     if columns == 3:
         values = table(path, "a matrix of Abaqus", "row, column, value", comments="*")
         index = whole_numbers(path, values[:, :2], "row and column") - 1
         if index.max() + 1 != n:
-            raise wrong(path, f"there are {index.max() + 1} equations, where {n // 3} nodes with elements have {n}")
+            raise wrong(path, f"there are {index.max() + 1} equations, but {n // 3} nodes with elements have {n}")
     else:
         values = table(path, "a matrix of Abaqus", "node, freedom, node, freedom, value", comments="*")
         names = whole_numbers(path, values[:, :4], "nodes and freedoms")
@@ -152,11 +153,14 @@ def _equations(path: Path, pairs: np.ndarray, numbers: np.ndarray) -> np.ndarray
     if names.min() <= 0:
         raise wrong(
             path,
-            f"node {names.min()} is an internal one of Abaqus (of hybrid elements or constraints), no node of a solid",
+            f"node {names.min()} is an internal node of Abaqus (hybrid elements or constraints), which is not supported",
         )
     if freedoms.min() < 1 or freedoms.max() > 3:
         bad = pairs[(freedoms < 1) | (freedoms > 3)][0]
-        raise wrong(path, f"node {bad[0]} has a freedom {bad[1]} that is no displacement; only solids are read")
+        raise wrong(
+            path,
+            f"node {bad[0]} has the degree of freedom {bad[1]}, which is not a displacement; only solids are supported",
+        )
     rows = np.minimum(np.searchsorted(numbers, names), numbers.size - 1)
     if (numbers[rows] != names).any():
         raise wrong(

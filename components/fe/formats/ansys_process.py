@@ -1,7 +1,7 @@
-"""Reads files of Ansys in a process of its own: FULL BESIDE OUT.
+"""Read Ansys files in a separate process with arguments FULL BESIDE OUT, and write the arrays to OUT, a .npz file.
 
-The package that reads them ends the process at files that are cut off or damaged. This file imports nothing of ours, and
-writes arrays to OUT, a .npz file.
+The package that reads them crashes the process at truncated or damaged files. This module imports no other module of
+the project.
 """
 
 import sys
@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-WORD = 4  # bytes, in which files of Ansys count
-# Numbers of solid elements in VTK; of a result, those without nodes on edges are given for those with them.
+WORD = 4  # bytes, the unit of lengths in Ansys files
+# VTK types of solid elements; results have the linear types for quadratic elements.
 SOLIDS = (10, 12, 13, 24, 25, 26)
 
 
 def whole(reader: Any, path: str) -> Any:
-    """Return what the package makes of a binary file, if that is as long as its heading says."""
+    """Read a binary file and check its length against its header."""
     found = reader.read_binary(path)
     heading = {**getattr(found, "_header", {}), **getattr(found, "_resultheader", {})}
     words = next((int(np.ravel(heading[name])[0]) for name in ("ptrEND", "ptrend") if name in heading), 0)
@@ -30,7 +30,7 @@ def matrices(reader: Any, path: str) -> dict[str, np.ndarray]:
     """Return the equations (node, freedom) and the entries of K and M, one triangle of each."""
     equations, *found = whole(reader, path).load_km(sort=False)
     if any(matrix is None for matrix in found):
-        raise EOFError("there is no mass or no stiffness matrix in it; the file of a modal analysis has both")
+        raise EOFError("the mass or stiffness matrix is missing; the file of a modal analysis has both")
     content = {"equations": equations}
     for name, matrix in zip("KM", found, strict=True):
         entries = matrix.tocoo()
@@ -39,7 +39,7 @@ def matrices(reader: Any, path: str) -> dict[str, np.ndarray]:
 
 
 def mesh(reader: Any, path: str) -> dict[str, np.ndarray]:
-    """Return numbers, places and axes of the nodes, and solid elements by the number of their nodes."""
+    """Return numbers, positions and axes of the nodes, and solid elements by their number of nodes."""
     archive = path.lower().endswith(".cdb")
     source = reader.Archive(path, verbose=False) if archive else whole(reader, path)
     found = source if archive else source.mesh
@@ -52,12 +52,12 @@ def mesh(reader: Any, path: str) -> dict[str, np.ndarray]:
 
 
 def main(full: str, beside: str, out: str) -> int:
-    """Write the arrays, or print what is wrong: the file, a tab, and why."""
+    """Write the arrays; on failure print the file to stdout and the reason to stderr."""
     from ansys.mapdl import reader  # pyright: ignore[reportMissingImports]
 
     content = {}
     for path, read in ((full, matrices), (beside, mesh)):
-        print(path, flush=True)  # should the process end here, this is the file
+        print(path, flush=True)  # names the file if the process crashes
         try:
             content |= read(reader, path)
         except Exception as error:

@@ -1,4 +1,4 @@
-"""Nodes and solid elements of an archive of Ansys, as CDWRITE writes it: NBLOCK and EBLOCK."""
+"""Nodes and solid elements of an Ansys archive written by CDWRITE: NBLOCK and EBLOCK."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from components.fe.formats.text import number, text_of, wrong
 
-# Nodes of the solids by the number of their routine in ET. Others, such as surfaces and contacts, are passed over.
+# Number of nodes of the solids by their element routine in ET. Others, such as surfaces and contacts, are ignored.
 SOLIDS = {
     **dict.fromkeys((5, 45, 64, 65, 69, 70, 185), 8),
     **dict.fromkeys((87, 92, 98, 187, 227), 10),
@@ -18,7 +18,7 @@ SOLIDS = {
     285: 4,
 }
 KINDS = {4: "tetra", 8: "hexahedron", 10: "tetra10", 20: "hexahedron20"}
-# Bricks whose nodes coincide: kind, positions of its own nodes, and of the pairs that are one node.
+# Degenerate bricks: element type, indices of its nodes in the brick, and pairs of coincident nodes.
 COLLAPSED = {
     8: (("tetra", (0, 1, 2, 4), ((2, 3), (4, 5), (5, 6), (6, 7))), ("wedge", (0, 1, 2, 4, 5, 6), ((2, 3), (6, 7)))),
     20: (
@@ -26,21 +26,21 @@ COLLAPSED = {
         ("wedge15", (0, 1, 2, 4, 5, 6, 8, 9, 11, 12, 13, 15, 16, 17, 18), ((2, 3), (6, 7))),
     ),
 }
-CORNERS = {10: 4, 20: 8}  # nodes of the solids that have others on their edges
-HEAD = 11  # whole numbers before the nodes of an element, in a block of solids
-TYPE, COUNT, NUMBER = 1, 8, 10  # places of what they say
+CORNERS = {10: 4, 20: 8}  # corners of the quadratic solids
+HEAD = 11  # integers before the nodes of an element, in a block of solids
+TYPE, COUNT, NUMBER = 1, 8, 10  # their indices
 FIELD = re.compile(r"(\d*)([ieIE])(\d+)(?:\.\d+(?:[eE]\d+)?)?")
 END = re.compile(r"\s*N\s*,\s*R5\.\d\s*,\s*LOC\s*,\s*-1", re.IGNORECASE)
 Row = tuple[int, list[str], list[str]]
 
 
 def read_cdb(path: str | Path) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-    """Return places and numbers of the nodes, and solid elements as rows of these, by meshio's names.
+    """Return positions and numbers of the nodes, and solid elements as rows of these, by meshio's names.
 
     Raises
     ------
     DeclarationError
-        If blocks of nodes or of elements are missing or cut off, or a line is wrong.
+        If blocks of nodes or elements are missing or truncated, or a line is invalid.
     """
     rest = enumerate(text_of(path, "an archive of Ansys").splitlines(), 1)
     routines: dict[int, int] = {}
@@ -61,20 +61,20 @@ def read_cdb(path: str | Path) -> tuple[np.ndarray, np.ndarray, dict[str, np.nda
     rows = {name: row for row, name in enumerate(places)}
     lost = next((name for cells in found.values() for nodes in cells for name in nodes if name not in rows), None)
     if lost is not None:
-        raise wrong(path, f"an element names node {lost}, which is not in the file")
+        raise wrong(path, f"an element refers to node {lost}, which is not in the file")
     cells = {kind: np.array([[rows[name] for name in nodes] for nodes in members]) for kind, members in found.items()}
     return np.array(list(places.values())), np.array(list(places)), cells
 
 
 def _rows(path: str | Path, rest: Iterator[tuple[int, str]], begun: int, block: str) -> Iterator[Row]:
-    """Yield line number, whole and real numbers of each line of a block.
+    """Yield line number, integers and real numbers of each line of a block.
 
-    The line below its heading gives the widths of the fields; the block ends with a line of -1.
+    The line below the header gives the field widths; the block ends with a line of -1.
     """
     at, form = next(rest, (begun, ""))
     fields = [(kind.lower(), int(width)) for n, kind, width in FIELD.findall(form) for _ in range(int(n or 1))]
     if not fields:
-        raise wrong(path, f"{block} needs the format of its lines, such as (3i9,6e21.13e3), not `{form[:60]}`", at)
+        raise wrong(path, f"{block} must begin with its format, such as (3i9,6e21.13e3), not `{form[:60]}`", at)
     ends = np.cumsum([width for _, width in fields]).tolist()
     slices = [(kind, slice(end - width, end)) for (kind, width), end in zip(fields, ends, strict=True)]
     for line, text in rest:
@@ -83,30 +83,30 @@ def _rows(path: str | Path, rest: Iterator[tuple[int, str]], begun: int, block: 
         parts = [(kind, text[part].strip()) for kind, part in slices if text[part].strip()]
         if parts:
             yield line, [word for kind, word in parts if kind == "i"], [word for kind, word in parts if kind != "i"]
-    raise wrong(path, f"the file ends inside of {block}, which begins in line {begun}: it was cut off")
+    raise wrong(path, f"the file is truncated: it ends inside {block}, which begins in line {begun}")
 
 
 def _elements(path: str | Path, rows: Iterator[Row], routines: dict[int, int]) -> Iterator[tuple[str, list[int]]]:
-    """Yield kind and nodes of each solid; bricks whose nodes coincide are what they look like."""
+    """Yield type and nodes of each solid; degenerate bricks become tetrahedra or wedges."""
     for line, whole, _ in rows:
         head = _integers(path, line, whole)
         nodes, count = head[HEAD:], head[COUNT] if len(head) > COUNT else 0
         while len(nodes) < count:
             line, whole, _ = next(rows, (line, [], []))
             if not whole:
-                raise wrong(path, f"element {head[NUMBER]} has {len(nodes)} nodes in place of {count}", line)
+                raise wrong(path, f"element {head[NUMBER]} has {len(nodes)} nodes instead of {count}", line)
             nodes += _integers(path, line, whole)
         if len(head) <= HEAD or head[TYPE] not in routines:
-            raise wrong(path, "an element of a type that no ET gives, or without nodes", line)
+            raise wrong(path, "the element has no nodes, or a type that no ET defines", line)
         needed = SOLIDS.get(routines[head[TYPE]], 0)
         if not needed:
             continue
         if not any(nodes[(corners := CORNERS.get(needed, needed)) :]):
-            needed = corners  # all nodes on edges left out
+            needed = corners  # all mid-edge nodes omitted
             nodes = nodes[:needed]
         if len(nodes) != needed or 0 in nodes:
             have = len(nodes) - nodes.count(0)
-            raise wrong(path, f"element {head[NUMBER]} has {have} nodes, where its type has {needed}", line)
+            raise wrong(path, f"element {head[NUMBER]} has {have} nodes, but its type needs {needed}", line)
         kind, own = KINDS[needed], range(needed)
         for other, members, pairs in COLLAPSED.get(needed, ()):
             if all(nodes[a] == nodes[b] for a, b in pairs):
@@ -119,12 +119,12 @@ def _integers(path: str | Path, line: int, words: list[str]) -> list[int]:
     try:
         return [int(word) for word in words]
     except ValueError:
-        raise wrong(path, f"whole numbers are expected here, not `{' '.join(words)[:60]}`", line) from None
+        raise wrong(path, f"integers are expected here, not `{' '.join(words)[:60]}`", line) from None
 
 
 def _place(path: str | Path, line: int, words: list[str]) -> list[float]:
-    """Places whose last numbers are 0 end before them."""
+    """Return a position; trailing zeros are omitted in the file."""
     try:
         return [number(word) for word in (*words[:3], "", "", "")[:3]]
     except ValueError:
-        raise wrong(path, f"x, y, z of a node are numbers, not `{' '.join(words[:3])[:60]}`", line) from None
+        raise wrong(path, f"x, y, z of a node must be numbers, not `{' '.join(words[:3])[:60]}`", line) from None

@@ -35,7 +35,8 @@ def from_entries(
     Raises
     ------
     DeclarationError
-        If an entry lies outside or stands twice, or an equation that should has no entry on the diagonal: the file was cut.
+        If an entry lies outside or stands twice, or an equation that should has no entry on the diagonal: the file was
+        cut.
     """
     for index in (rows, columns):
         if index.size and (index.min() < 0 or index.max() >= n):

@@ -13,10 +13,10 @@ import numpy as np
 from components.fe.elements import assemble
 from components.fe.elements.assembly import FLAT
 from components.fe.formats.cdb import read_cdb
-from components.fe.formats.foreign import existing, package, read_by
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices
 from components.fe.formats.text import doubt, text_of, wrong
+from components.fe.formats.third_party import existing, package, read_by
 from components.fe.nodes import Nodes
 
 NASTRAN = (".bdf", ".fem", ".nas")
@@ -31,10 +31,10 @@ def read_mesh(path: str | Path, *, E: float, nu: float, rho: float, length: floa
     Parameters
     ----------
     path : str or Path
-        Any file that meshio reads (.msh, .vtu, .vtk, .med, .bdf, ...), a deck of Abaqus or CalculiX (.inp), or an archive
-        of Ansys (.cdb), with tetrahedra of 10 or 4 nodes, bricks of 20 or bricks of 8 nodes; these get incompatible modes.
-        Tetrahedra of 4 nodes are far too stiff in bending, which a warning says. Surfaces, lines and points, and nodes of no
-        solid element, are passed over.
+        Any file that meshio reads (.msh, .vtu, .vtk, .med, .bdf, ...), a deck of Abaqus or CalculiX (.inp), or an
+        archive of Ansys (.cdb), with tetrahedra of 10 or 4 nodes, bricks of 20 or bricks of 8 nodes; these get
+        incompatible modes. Tetrahedra of 4 nodes are far too stiff in bending, which a warning says. Surfaces, lines
+        and points, and nodes of no solid element, are passed over.
     E, nu, rho : float
         Modulus of elasticity in Pa, Poisson's ratio, density in kg/m3.
     length : float

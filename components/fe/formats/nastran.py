@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from components.fe.formats.foreign import existing, package, read_by
 from components.fe.formats.matrices import Matrices, mirrored
 from components.fe.formats.text import wrong
+from components.fe.formats.third_party import existing, package, read_by
 from components.fe.nodes import Nodes
 
 DECKS = (".bdf", ".dat", ".nas", ".blk")

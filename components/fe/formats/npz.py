@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError
-from components.fe.archive import WRONG, said
+from components.fe.reduction.archive import UNREADABLE, reason
 
 PLACES = ("coords_m", "coords_mm", "nodes")
 
@@ -17,9 +17,9 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
     """Mass, stiffness and nodes from a .npz file.
 
     It holds the nodes as `coords_m`, `coords_mm` or `nodes`, shape (N, 3), and each of mass and stiffness as a full or
-    triangular matrix: dense under its name, or sparse in rows (CSR) as NAME_data, NAME_indices and NAME_indptr. The names
-    are `K` for the stiffness, shape (3 N, 3 N), and `M` for the mass, or `mscalar`, shape (N, N), for the mass of each
-    pair of nodes.
+    triangular matrix: dense under its name, or sparse in rows (CSR) as NAME_data, NAME_indices and NAME_indptr. The
+    names are `K` for the stiffness, shape (3 N, 3 N), and `M` for the mass, or `mscalar`, shape (N, N), for the mass of
+    each pair of nodes.
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
             content = {name: file[name] for name in file.files}
     except FileNotFoundError:
         raise DeclarationError(f"there is no file {path}") from None
-    except WRONG as error:
-        raise DeclarationError(f"{path} is no .npz file, or not whole{said(error)}") from None
+    except UNREADABLE as error:
+        raise DeclarationError(f"{path} is not a .npz file, or is damaged{reason(error)}") from None
     places = next((name for name in PLACES if name in content), None)
     if places is None and "modal_first" in content:
         raise DeclarationError(f"{path} holds a body that is reduced already: FEBody(reduced=...) takes it")

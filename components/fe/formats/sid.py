@@ -9,7 +9,8 @@ import numpy as np
 from acausal.result.files import whole
 from components.fe.formats.sid_tree import DIGITS, Block, Taylor, index_order, read_tree, taylor
 from components.fe.formats.text import doubt, number, wrong
-from components.fe.reduced_body import Interface, ReducedBody
+from components.fe.reduction.interface import Interface
+from components.fe.reduction.reduced_body import ReducedBody
 
 # w1^2, w2^2, w3^2, w1 w2, w2 w3, w1 w3: the columns of Oe.
 PRODUCTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
@@ -25,8 +26,8 @@ def read_sid(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Red
     A SID is reduced already: there are no nodes and no matrices of a mesh in it. Its nodes become interfaces, and its
     coordinates q new ones, for which M is the unit matrix, unless it is so in the file. Of what the file says more than
     once (J and Gr, Ge beside Ct, Cr, Me, Oe) the second group is used. Where Oe has no M1, or holds more than inertia
-    (geometric stiffness due to spin), inertia of second order in q is not known: a warning says so, and the body has that
-    of first order. Stresses and loads at nodes are passed over, as are lines above `part`.
+    (geometric stiffness due to spin), inertia of second order in q is not known: a warning says so, and the body has
+    that of first order. Stresses and loads at nodes are passed over, as are lines above `part`.
 
     The unit of time is the second. The coordinates q have the file's unit of length, so that mode shapes are numbers.
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal import DeclarationError
 from acausal.result import read_text, shown_name
-from components.fe.checks import warn
+from components.fe.user_warning import warn
 
 LARGEST = 10**12  # number of a node or an element that a program has
 # Exponents of Fortran: 1.5D+10, and 1.5+100, whose letter gives way to a third digit.

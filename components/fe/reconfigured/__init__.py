@@ -1,0 +1,1 @@
+"""Motion of a free flexible body by single steps in reconfigured inertial frames."""

@@ -1,0 +1,1 @@
+"""From mass and stiffness matrices to a reduced body, and its file."""
