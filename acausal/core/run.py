@@ -13,10 +13,10 @@ from acausal.locks import unlocked
 
 
 class Back(IntEnum):
-    """Why a run came back.
+    """Reason why a slice ended.
 
-    It is at its end; there is no room for more rows; it took its steps; it is at an event, which is left to the caller; or it
-    is in doubt what happens next.
+    The run is at its end; the row buffer is full; the slice took its number of steps; the run is at an event, which is left to
+    the caller; or the loop cannot decide what happens next.
     """
 
     END = 0
@@ -27,7 +27,7 @@ class Back(IntEnum):
 
 
 class RequestData(Structure):
-    """What the library takes as the request for a run, see `hybrid.h`."""
+    """Request for a slice, see `ac_run_request` in hybrid.h."""
 
     _fields_ = (
         ("end", c_double),
@@ -41,7 +41,7 @@ class RequestData(Structure):
 
 
 class RunState(Structure):
-    """Where a run is, its energies and counts since it began, and what is doubtful, see `hybrid.h`."""
+    """Progress of a run since it began, see `ac_run_state` in hybrid.h."""
 
     _fields_ = (
         ("time", c_double),
@@ -55,12 +55,12 @@ class RunState(Structure):
 
 @dataclass(frozen=True)
 class Rows:
-    """What a slice of a run recorded.
+    """Rows and events of one slice.
 
     Attributes
     ----------
     back : Back
-        Why it came back.
+        Why the slice ended.
     times, x, z, c : arrays, shapes (n,), (n, nx), (n, nz), (n, nc)
         Rows at outputs, after events and at the end; algebraic unknowns nearly right.
     work : array, shape (n, 2)
@@ -79,7 +79,7 @@ class Rows:
 
 
 class Run:
-    """An instance of a model that runs, with memory of its own, for one thread at a time.
+    """Instance of a model in the core, used by one thread at a time.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ class Run:
         tolerance: float,
         damps: bool,
     ) -> None:
-        """Stand at a consistent point.
+        """Begin at a consistent point.
 
         Parameters
         ----------
@@ -150,18 +150,18 @@ class Run:
         self._library.ac_run_begin(self._memory, time, step, tolerance, damps, *map(address, given))
 
     def go(self, outputs: np.ndarray, end: float, *, leaves: bool, steps: int, longest: int = 2**62) -> Rows:
-        """Go on to an end, in one slice, while other threads may go on.
+        """Run one slice towards an end; the interpreter lock is released meanwhile.
 
         Parameters
         ----------
         outputs : array
             Output times in s, ascending.
         end : float
-            Where it stops, in s.
+            End of the run in s.
         leaves : bool
             Whether what happens at events is left to the caller.
         steps : int
-            Steps after which it pauses, refused ones among them.
+            Steps after which the slice ends, rejected steps included.
         longest : int
             Steps between two outputs or events at most.
         """
@@ -178,7 +178,7 @@ class Run:
 
     @property
     def message(self) -> str:
-        """What the core says of a doubt."""
+        """Message of the core after `Back.DOUBT`."""
         return self._library.ac_message(self._memory).decode()
 
     def values(self) -> tuple[np.ndarray, ...]:

@@ -1,4 +1,4 @@
-"""Go on in the core, over events and planned instants, as far as it is sure what happens."""
+"""Run the core's hybrid loop over a segment, as far as it decides what happens at events."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ SAMPLING = POLICY.sampling
 
 @dataclass(frozen=True)
 class Passed:
-    """What was passed.
+    """Result of one slice of the hybrid loop.
 
     Attributes
     ----------
     legs : list of Leg
-        Rows.
+        Rows at outputs and after events; empty or one leg.
     at : Point
-        After them.
+        Point that was reached.
     events : list of float
-        Times of the events in s that happened meanwhile.
+        Times of the events in s.
     peak : array
-        Greatest excess of each watched condition since the last one.
+        Largest value of each event indicator since the last event, positive while nothing changes.
     crossed : array of bool, optional
-        Conditions that change at `at`, where an event is left to the caller.
+        Conditions that change at `at`, if the event there is left to the caller.
     weak : int
-        Events in a row with hardly any motion between.
+        Consecutive events with hardly any motion between them.
     work : array, shape (2,)
         Supplied and dissipated energy in J since the last row.
     """
@@ -55,12 +55,12 @@ class Passed:
 
 
 class Hybrid:
-    """Runs of the core over segments.
+    """Hybrid loop of the core, segment by segment.
 
     Parameters
     ----------
     ahead : Ahead
-        Looks ahead wherever this does not.
+        Search for events in Python, which takes over where the loop is in doubt.
     times : array
         Output times in s.
     """
@@ -69,11 +69,11 @@ class Hybrid:
         self.ahead, self.integrator, self.times = ahead, ahead.integrator, times
         self._made: tuple[Way, Run] | None = None
         self._wait, self._next, self._worked = 0, 1, np.zeros(2)
-        self._at: Point | None = None  # where a run pauses
+        self._at: Point | None = None  # where the run pauses
         self._decides = decides(self.integrator.compiled)
 
     def go(self, at: Point, end: float, weak: int) -> Passed | None:
-        """Go on towards the end of a segment, after so many weak events; None where it is in doubt what happens next."""
+        """Run one slice towards the end of a segment, after `weak` weak events; return None if the loop made no progress."""
         way = self.integrator.way
         if at is not self._at and not self._begin(at, way, weak):
             return None
@@ -96,7 +96,7 @@ class Hybrid:
         return Passed(legs, point, found.events.tolist(), peak, changes, run.state.weak, work)
 
     def _begin(self, at: Point, way: Way, weak: int) -> bool:
-        """Stand at a point, if the core runs the model from there."""
+        """Begin at a point; return whether the core runs the model from there."""
         if self._wait or not self._fits(at, way):
             self._wait = max(0, self._wait - 1)
             return False
@@ -112,7 +112,7 @@ class Hybrid:
         return True
 
     def _slice(self, run: Run, end: float, way: Way) -> tuple[Back, Recorded]:
-        """Take some steps, and count them."""
+        """Run a slice and add its counts."""
         integrator = self.integrator
         before = self._counts(run)
 
@@ -128,18 +128,18 @@ class Hybrid:
 
     @staticmethod
     def _counts(run: Run) -> np.ndarray:
-        """Steps, factorisations, evaluations of the equations, and calls."""
+        """Return the numbers of steps, factorisations, residual evaluations and restarts."""
         state = run.state
         return np.array([state.steps, state.steps + state.refused, state.values, state.begun])
 
     def _longest(self, way: Way) -> int:
-        """Steps between two outputs after which vibrations count as in the way, or at most."""
+        """Return the largest number of steps between outputs, or the number after which vibrations are damped instead."""
         settings = self.integrator.settings
         ringing = settings.first(way, self.times[[0, -1]]).ringing
         return ringing.steps if ringing and settings.rings(ringing.interval) else way.max_steps
 
     def _legs(self, found: Recorded) -> list[Leg]:
-        """Rows as the trace takes them."""
+        """Return the recorded rows as legs of the trace."""
         if not len(found.times):
             return []
         constants = self.integrator.compiled.layout.constants(found.c[-1])
@@ -147,7 +147,7 @@ class Hybrid:
         return [Leg(Rows(found.times, found.x, found.z, found.c), work, constants, 0)]
 
     def _fits(self, at: Point, way: Way) -> bool:
-        """Whether the core runs the model in a way; which of redundant constraints are independent is decided in Python."""
+        """Return whether the core runs the model; independent subsets of redundant constraints are selected in Python."""
         integrator = self.integrator
         compiled = integrator.compiled
         if not library() or not METHODS[way.method].marches or not compiled.nx:
@@ -155,7 +155,7 @@ class Hybrid:
         return not integrator.loops or (way.moves and at.constants.all_count)
 
     def _run(self, at: Point, way: Way) -> Run:
-        """The run, made anew where the way changes."""
+        """Return the run, created anew if the configuration has changed."""
         if self._made is None or self._made[0] is not way:
             integrator = self.integrator
             c, problem = integrator.compiled, integrator.problem
