@@ -308,7 +308,7 @@ def test_what_was_done_before_an_interrupt_is_counted(monkeypatch: Any) -> None:
         go()
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(core, "apart", cut)
+    monkeypatch.setattr(core, "unlocked", cut)
     with pytest.raises(KeyboardInterrupt) as caught:
         ac.simulate(compiled(SampledPendulum), stop_time=3.0)
     stats: Any = caught.value.result.stats

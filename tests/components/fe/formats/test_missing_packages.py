@@ -52,5 +52,5 @@ def test_files_for_paraview(tmp_path: Path) -> None:
     frame = {name: np.zeros((1, 3)) for name in ("r_0", "v", "a", "z", "R.w")} | {"R.T": np.eye(3)[None]}
     result = Result({f"body.{name}": np.zeros((1, 1)) for name in ("q", "qd", "qdd")})
     result |= {f"body.ref.{name}": value for name, value in frame.items()}
-    with pytest.raises(DeclarationError, match=r"needs meshio: python -m pip install 'acausal\[fe\]'"):
+    with pytest.raises(DeclarationError, match=r"needs meshio\. Do this: python -m pip install 'acausal\[fe\]'"):
         NodalResult(result, "body", body).write_vtu(tmp_path / "a.vtu")  # pyright: ignore
