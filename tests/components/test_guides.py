@@ -210,7 +210,9 @@ def refused(model: Model, message: str) -> None:
 
 
 def test_wrong_input():
-    refused(Bead(wire=PointOnCurve(curve=3, u=fixed(0), der_u=fixed(0))), "`curve` is not a function; give a function of u")
+    refused(
+        Bead(wire=PointOnCurve(curve=3, u=fixed(0), der_u=fixed(0))), "`curve` is not a function; give a function of u"
+    )
     refused(
         Bead(wire=PointOnCurve(curve=lambda u: (u, u), u=fixed(0), der_u=fixed(0))), "does not return three coordinates"
     )

@@ -97,7 +97,9 @@ def test_two_wheels_in_line():
 
 
 def test_wheel_that_falls_flat():
-    with pytest.raises(ac.SimulationError, match=r"wheel\.rolling_wheel.*at t = 0\.\d+ s the wheel falls flat.*higher speed"):
+    with pytest.raises(
+        ac.SimulationError, match=r"wheel\.rolling_wheel.*at t = 0\.\d+ s the wheel falls flat.*higher speed"
+    ):
         ac.simulate(
             Wheel(wheel=RollingWheel(radius=r, m=m, I_axis=C, I_long=A, der_angles=fixed((0, 0, 1)))), stop_time=2
         )
