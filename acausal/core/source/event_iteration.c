@@ -1,5 +1,4 @@
 /* What happens at one instant: switches flip and variables jump until nothing changes. As `Instants` of Python does it. */
-#include "condition.h"
 #include "instance.h"
 
 #include <math.h>
@@ -36,12 +35,13 @@ double ac_width(const ac_instance *i, int32_t guard) {
     return i->now.tolerance * (scale > 0 && isfinite(scale) ? scale : fmin(i->of->span, 1));
 }
 
-/* Whether a watched condition holds from now on. */
+/* Whether a watched condition holds from now on: where it is negative; what passes 0 just now counts as passed. */
 static int holds(const ac_instance *i, int32_t k, double rate) {
     const double value = i->guards[k], width = ac_width(i, k), change = rate * i->of->span;
     const double rounding = ADDED * fmax(1, LATE * fabs(i->now.time) / i->of->span);
     const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(change) * (i->of->guard[k].clocked ? rounding : SOON);
-    return ac_holds(value, change, width, MOVES * width, soon, i->truth[k] > 0);
+    if (fabs(change) > MOVES * width && soon && fabs(value) <= width) return change < 0;
+    return value == 0 ? i->truth[k] > 0 : value < 0;
 }
 
 /* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all). */

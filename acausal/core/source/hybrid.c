@@ -189,32 +189,30 @@ static int32_t iterate(ac_instance *i, int32_t *changed) {
     return failed;
 }
 
+/* Keep what an event iteration changes, or go back to it. */
+static void keep(ac_instance *i, int back) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const int32_t watched = i->of->watched, length[] = {e->nx, e->nz, e->nc, watched, watched};
+    double *const part[] = {i->x, i->z, i->c, i->truth, i->crossed}, *kept = i->kept;
+    for (int k = 0; k < 5; kept += length[k++]) ac_put(back ? part[k] : kept, back ? kept : part[k], length[k]);
+    if (back) ac_changed(i);
+}
+
 /* Let an event happen; a run leaves to its caller what does not succeed, as it was before. */
 static int32_t act(ac_instance *i) {
-    const ac_equations *e = &i->of->parts.model.equations;
     const int chatter = chatters(i);
     int32_t changed = 0;
     i->now.integrates = i->now.curved = 0;
     if (!i->recorder) {
         return chatter ? ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.") : iterate(i, &changed);
     }
-    double *kept = i->kept;
     (void)ac_know(i, AC_Z); /* where it fails, so does the iteration */
-    ac_put(kept, i->x, e->nx), kept += e->nx;
-    ac_put(kept, i->z, e->nz), kept += e->nz;
-    ac_put(kept, i->c, e->nc), kept += e->nc;
-    ac_put(kept, i->truth, i->of->watched), kept += i->of->watched;
-    ac_put(kept, i->crossed, i->of->watched);
+    keep(i, 0);
     if (!chatter && !i->recorder->run->leaves && !iterate(i, &changed)) {
         ac_record_event(i, changed);
         return AC_OK;
     }
-    ac_put(i->crossed, kept, i->of->watched), kept -= i->of->watched;
-    ac_put(i->truth, kept, i->of->watched), kept -= e->nc;
-    ac_put(i->c, kept, e->nc), kept -= e->nz;
-    ac_put(i->z, kept, e->nz), kept -= e->nx;
-    ac_put(i->x, kept, e->nx);
-    ac_changed(i);
+    keep(i, 1);
     return AC_LEAVE;
 }
 
