@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import casadi as ca
 import numpy as np
 
@@ -10,6 +12,7 @@ from acausal.compiler.memo import memoized
 from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
 from acausal.instructions import READABLE
 from acausal.language.functions import time
+from acausal.symbols import dense
 
 
 @memoized
@@ -74,11 +77,25 @@ def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
     tape : Tape
         Watched excesses, then their rates.
     """
-    r, (excess, direct, by_z, inner, follows) = compiled.reduced, compiled.guards.motion
+    r = compiled.reduced
+    return make_motion([r.p, r.constants, r.x, r.z, time.sx], compiled.guards.motion)
+
+
+def make_motion(arguments: list[ca.SX], parts: Sequence[ca.SX]) -> tuple[Square | None, Tape]:
+    """Return excesses and their rates as `core_motion` does.
+
+    Parameters
+    ----------
+    arguments : list of casadi.SX
+        Parameters, constants, states, algebraic unknowns and time.
+    parts : sequence of casadi.SX
+        As of `EventConditions.motion_of`.
+    """
+    excess, direct, by_z, inner, follows = parts
     rates = ca.SX.sym("rates", by_z.shape[1])
-    arguments = r.p, r.constants, r.x, r.z, time.sx, rates
-    column = ca.vertcat(excess, direct + by_z @ rates)
-    tape = make_tape(ca.Function("watched", list(arguments), [ca.densify(column)], READABLE), early=(0, 1))
+    arguments = [*arguments, rates]
+    column = dense(ca.vertcat(excess, direct + by_z @ rates)) if excess.numel() else ca.SX(0, 1)
+    tape = make_tape(ca.Function("watched", arguments, [column], READABLE), early=(0, 1))
     if not rates.numel():
         return None, tape
     return make_square(arguments, 2, inner @ rates + follows, 5, np.arange(rates.numel())), tape

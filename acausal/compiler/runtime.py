@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,12 +10,15 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
+from acausal.compiler.core_equations import core_equations, core_motion, core_square, make_motion
 from acausal.core import Equations, Square, make_equations, make_square, make_tape
 from acausal.core.model_file import equations_sections, ints, tape_bytes
 from acausal.instructions import READABLE
 from acausal.language.functions import time
 from acausal.symbols import dense, picked, stacked
 
+VERSION = 6  # of the file format, as in unit.c
+INNER = 4  # role of a parameter that no importer sees, as in instance.h
 NOTHING = ca.SX(0, 1)
 
 
@@ -28,9 +31,8 @@ class Runtime:
     compiled : CompiledModel
         The model.
     symbols : casadi.SX
-        Parameters of the run-time: those of the model first.
-    nominal : casadi.SX or casadi.DM
-        Nominal values of states and algebraic unknowns, numbers or among these parameters.
+        Parameters of the run-time: those of the model, and maybe others behind them. Without others, tapes and square systems
+        are those with which Python evaluates the model.
     watched : list of int
         Conditions that are event indicators.
     levels : sequence of (rows, columns)
@@ -45,7 +47,6 @@ class Runtime:
 
     compiled: CompiledModel
     symbols: ca.SX
-    nominal: ca.SX | ca.DM
     watched: list[int]
     levels: Sequence[tuple[list[int], np.ndarray]]
     closures: np.ndarray
@@ -65,9 +66,16 @@ class Runtime:
         running = self.compiled.reduced.running
         return self.moving(running.ode), self.moving(running.alg)
 
+    @property
+    def _shares(self) -> bool:
+        """Whether what Python evaluates serves the run-time as well."""
+        return self.symbols is self.compiled.reduced.p
+
     @cached_property
     def equations(self) -> Equations:
         """The equations that are integrated."""
+        if self._shares:
+            return core_equations(self.compiled, False, True)
         x, z, t, p, c = self._symbols
         return make_equations(x, z, t, p, c, *self.running)
 
@@ -77,15 +85,17 @@ class Runtime:
         c, by_rows = self.compiled.constraints, self._by_rows
         return {
             **equations_sections(self.equations),
-            **self.square("settle", self.running[1], 3, range(self.compiled.nz)),
+            **self._algebraic("settle", range(self.compiled.nz)),
             **by_rows,
-            "guards": self.tape(ca.vertcat(self._excess, self._scale)),
+            "guards": self.tape(self._excess),
+            "scales": self.tape(_entries(self._slopes)),
+            "scalesat": _pattern(self._slopes),
             "jumps": self.tape(self._jumps[0]),
             "jumpsto": ints([k for place in self._jumps[1] for k in place]),
-            "closing": self.tape(ca.vertcat(self._constraints, self._entries)),
+            "closing": self.tape(ca.vertcat(self._constraints, _entries(self._closing))),
             "coords": self.tape(self._coordinates[0]),
             "coordsto": ints(self._coordinates[1]),
-            "closeat": ints(self._closing.sparsity().colind()) + ints(self._closing.sparsity().row()),
+            "closeat": _pattern(self._closing),
             "closures": ints(self.closures),
             "kinds": ints(c.kinds),
             "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self.levels),
@@ -141,26 +151,26 @@ class Runtime:
         r = self.compiled.reduced
         return [r.x, r.z, time.sx, self.symbols, r.constants]
 
+    def _algebraic(self, name: str, wanted: Iterable[int]) -> dict[str, bytes]:
+        """Return the equations that determine some algebraic unknowns and all that these need."""
+        unknowns, equations = self.compiled.dependence.needed(wanted)
+        if self._shares:
+            return self._square_sections(name, core_square(self.compiled, tuple(unknowns.tolist())))
+        return self.square(name, picked(self.running[1], equations.tolist()), 3, unknowns)
+
     @property
     def _by_rows(self) -> dict[str, bytes]:
-        """Indicators and energies, with the squares of the algebraic unknowns that they need."""
+        """Indicators and energies, with the square systems of the algebraic unknowns that they need."""
         compiled, (x, z, t, p, c) = self.compiled, self._symbols
-        excess, direct, by_z, inner, follows = (self.moving(part) for part in compiled.guards.motion_of(self.watched))
-        rates = ca.SX.sym("rates", by_z.shape[1])
-        arguments = [p, c, x, z, t, rates]
-        column = dense(ca.vertcat(excess, direct + by_z @ rates)) if self.watched else NOTHING
-        indicators = make_tape(ca.Function("watched", arguments, [column], READABLE), early=(0, 1))
-        moves = inner @ rates + follows if rates.numel() else NOTHING
-        moving = make_square(arguments, 2, moves, 5, np.arange(rates.numel()))
+        parts = [self.moving(part) for part in compiled.guards.motion_of(self.watched)]
+        moving, indicators = core_motion(compiled) if self._shares else make_motion([p, c, x, z, t], parts)
         energies = dense(self.moving(ca.vertcat(compiled.powers, compiled.energy))) if self.energies else NOTHING
-        powers = make_tape(ca.Function("energies", arguments[:-1], [energies], READABLE), early=(0, 1))
-        dependence = compiled.dependence
-        needed = dependence.needed(dependence.inside(ca.veccat(excess, direct, by_z, inner, follows)))
-        powering = dependence.needed(dependence.inside(energies))
+        powers = make_tape(ca.Function("energies", [p, c, x, z, t], [energies], READABLE), early=(0, 1))
+        nothing = make_square([p, c, x, z, t], 2, NOTHING, 3, np.arange(0))
         return {
-            **self.square("needed", picked(self.running[1], needed[1].tolist()), 3, needed[0]),
-            **self.square("power", picked(self.running[1], powering[1].tolist()), 3, powering[0]),
-            **self._square_sections("moving", moving),
+            **self._algebraic("needed", compiled.dependence.inside(ca.veccat(*parts))),
+            **self._algebraic("power", compiled.dependence.inside(energies)),
+            **self._square_sections("moving", moving or nothing),
             "watched": tape_bytes(indicators),
             "energies": tape_bytes(powers),
         }
@@ -169,12 +179,10 @@ class Runtime:
     def _excess(self) -> ca.SX:
         return picked(self.compiled.guards.excess, self.watched)
 
-    @property
-    def _scale(self) -> ca.SX:
-        """Change of each watched excess by nominal changes of the unknowns."""
-        r = self.compiled.reduced
-        J = ca.jacobian(self._excess, ca.vertcat(r.x, r.z))
-        return ca.fabs(J) @ self.nominal if self.watched else NOTHING
+    @cached_property
+    def _slopes(self) -> ca.SX:
+        """Jacobian of the watched excesses by states and algebraic unknowns."""
+        return ca.jacobian(self._excess, ca.vertcat(self.compiled.reduced.x, self.compiled.reduced.z))
 
     @cached_property
     def _jumps(self) -> tuple[ca.SX, list[tuple[int, int]]]:
@@ -196,11 +204,6 @@ class Runtime:
     def _closing(self) -> ca.SX:
         return ca.jacobian(self._constraints, self.compiled.reduced.x)
 
-    @property
-    def _entries(self) -> ca.SX:
-        J = self._closing
-        return stacked(J.nz[:].elements()) if J.nnz() else NOTHING
-
     @cached_property
     def _coordinates(self) -> tuple[ca.SX, list[int]]:
         """Projected coordinates, and the states that stand for them."""
@@ -214,3 +217,13 @@ def decides(compiled: CompiledModel) -> bool:
     """Return whether events decide set-valued laws, or may let something jump that is differentiated."""
     guards = compiled.guards
     return bool(guards.differentiated) or len(guards.laws.places) > 0
+
+
+def _entries(J: ca.SX) -> ca.SX:
+    """Return the entries of a sparse matrix as a column."""
+    return stacked(J.nz[:].elements()) if J.nnz() else NOTHING
+
+
+def _pattern(J: ca.SX) -> bytes:
+    """Return the sparsity of a matrix in columns as a section holds it."""
+    return ints(J.sparsity().colind()) + ints(J.sparsity().row())

@@ -24,8 +24,6 @@ from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars, stacked
 
-VERSION = 6
-
 
 def watched(compiled: CompiledModel, given: Given) -> list[int]:
     """Return the guards that are watched: all but those whose instants functions of parameters and constants tell."""
@@ -80,9 +78,7 @@ class Content:
         """What the run-time takes of the model."""
         compiled, own = self.compiled, self.given
         closures = closure_of(compiled)
-        return Runtime(
-            compiled, own.symbols, ca.DM(self.nominal), self.watched, levels(compiled), closures, varied=own.sloped
-        )
+        return Runtime(compiled, own.symbols, self.watched, levels(compiled), closures, varied=own.sloped)
 
     @property
     def sections(self) -> dict[str, bytes]:

@@ -15,11 +15,12 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel, compile, ready
+from acausal.compiler.runtime import VERSION
 from acausal.core.model_file import framed
 from acausal.errors import ExportError
 from acausal.export.archive import check_fmu, source_names, write_fmu
 from acausal.export.beginning import begin
-from acausal.export.content import VERSION, Content, watched
+from acausal.export.content import Content, watched
 from acausal.export.description import Description, Variable, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach

@@ -232,8 +232,7 @@ static int32_t spread(ac_instance *i, int32_t parts) {
 static int32_t begin(ac_instance *i, sample *start) {
     const int32_t m = i->of->watched;
     ac_stand(i, i->now.from);
-    const double *w = ac_run(i, AC_GUARDS);
-    for (int32_t k = 0; k < 2 * m; k++) i->guards[k] = w[i->of->tape[AC_GUARDS].output[k]];
+    ac_find_scales(i);
     for (int32_t k = 0; k < m; k++) i->width[k] = ac_width(i, k), i->least[k] = 0;
     const int32_t failed = sample_at(i, i->now.from, NULL, start);
     for (int32_t k = 0; k < m && !failed; k++) {

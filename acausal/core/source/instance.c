@@ -196,6 +196,19 @@ static int32_t follow(ac_instance *i) {
     return failed;
 }
 
+void ac_find_scales(ac_instance *i) {
+    const ac_unit *u = i->of;
+    const int32_t n = u->parts.model.equations.nx + u->parts.model.equations.nz;
+    const double *w = ac_run(i, AC_SCALES);
+    double *scale = i->guards + u->watched;
+    memset(scale, 0, (size_t)u->watched * sizeof *scale);
+    for (int32_t j = 0; j < n; j++) {
+        for (int32_t k = u->scale_start[j]; k < u->scale_start[j + 1]; k++) {
+            scale[u->scale_row[k]] += fabs(w[u->tape[AC_SCALES].output[k]]) * u->nominal[j];
+        }
+    }
+}
+
 /* Find what is asked for. */
 int32_t ac_know(ac_instance *i, int32_t what) {
     const ac_unit *u = i->of;
@@ -218,7 +231,8 @@ int32_t ac_know(ac_instance *i, int32_t what) {
     }
     if (what & ~i->now.known & AC_GUARD) {
         const double *w = ac_run(i, AC_GUARDS);
-        for (int32_t k = 0; k < 2 * u->watched; k++) i->guards[k] = w[u->tape[AC_GUARDS].output[k]];
+        for (int32_t k = 0; k < u->watched; k++) i->guards[k] = w[u->tape[AC_GUARDS].output[k]];
+        ac_find_scales(i);
     }
     i->now.known |= what;
     return AC_OK;

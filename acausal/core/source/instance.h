@@ -9,7 +9,7 @@
 #include "unit.h"
 
 /* Tapes beside those of the equations; their inputs are x, z, t, p, c, too. */
-enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_TAPES };
+enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_TAPES };
 /* Square systems; their inputs are p, c, x, z, t: for all algebraic unknowns; for all unknowns at the start; for the algebraic
    unknowns that event indicators need, those that powers need; of the derivatives of the former, which are inputs behind t. */
 enum { AC_ALGEBRAIC, AC_INITIAL, AC_INDICATING, AC_POWERING, AC_MOVING, AC_SQUARES };
@@ -49,6 +49,7 @@ struct ac_unit {
     const int32_t *input;                   /* (inputs, 2) entry of p and of its slope; then the entry of the time of both */
     const ac_guard *guard;                  /* (watched + timed) */
     const int32_t *jump;                    /* (jumps, 2): whether it is a state, and its place among these or discrete ones */
+    const int32_t *scale_start, *scale_row; /* sparsity of the Jacobian of the watched conditions by x and z, in columns */
     const int32_t *close_start, *close_row; /* sparsity of the Jacobian of the constraints, in columns */
     const int32_t *closure;                 /* (constraints) closure that a constraint belongs to, or -1 */
     const int32_t *kind;                    /* (constraints) those of one equation have one number */
@@ -169,7 +170,8 @@ int32_t ac_happen(ac_instance *i, ac_happened *found);
 void ac_renew_inputs(ac_instance *i);
 double ac_near(const ac_instance *i);                           /* times that near are one */
 double ac_next_instant(ac_instance *i, double *between);
-double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
+void ac_find_scales(ac_instance *i);                            /* changes of watched conditions by nominal changes of x and z */
+double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be, by the scales found last */
 void ac_stand(ac_instance *i, double time);                     /* at a time within the last step of Co-Simulation */
 int32_t ac_refuse_jump(ac_instance *i);
 void ac_sample_step(ac_instance *i, int32_t rows);

@@ -83,7 +83,7 @@ static double *make(const ac_instance *i, double **dx, double **dp, double **dz,
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
     const size_t n = (size_t)e->nx + (size_t)e->nz;
-    double *all = calloc(2 * n + (size_t)e->np + (size_t)u->shown + 2 * (size_t)u->watched + 1, sizeof *all);
+    double *all = calloc(2 * n + (size_t)e->np + (size_t)u->shown + (size_t)u->watched + 1, sizeof *all);
     *dx = all, *dp = *dx + e->nx, *dz = *dp + e->np;
     of[0] = *dz + e->nz, of[1] = of[0] + n, of[2] = of[1] + u->shown;
     return all;

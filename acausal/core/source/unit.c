@@ -9,15 +9,15 @@
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, TAPES = SQUARE + 3 * AC_SQUARES, ROW_TAPES = TAPES + AC_TAPES,
-    RULES = ROW_TAPES + AC_ROW_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
+    RULES = ROW_TAPES + AC_ROW_TAPES, JUMPS_TO, SCALE_PATTERN, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
     DAMPED, NOMINAL, NATURAL, TOKEN, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "settleof", "begin", "beginat", "beginof", "needed", "neededat", "neededof", "power", "powerat", "powerof",
-    "moving", "movingat", "movingof", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords", "limits", "watched",
+    "moving", "movingat", "movingof", "head", "shown", "guards", "scales", "timed", "instants", "jumps", "closing", "coords", "limits", "watched",
     "energies",
-    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
+    "rules", "jumpsto", "scalesat", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
     "token",
 };
 
@@ -65,14 +65,17 @@ static int read_tapes(const ac_section *found, ac_unit *u) {
     const ac_equations *e = &u->parts.model.equations;
     const int32_t varying = e->nx + e->nz + 1, inputs = varying + e->np + e->nc;
     const int32_t outputs[AC_TAPES] = {
-        -1, u->shown, 2 * u->watched, u->timed, u->instants, u->jumps, -1, -1, -1,
+        -1, u->shown, u->watched, -1, u->timed, u->instants, u->jumps, -1, -1, -1,
     };
     for (int k = 0; k < AC_TAPES; k++) {
         if (!ac_read_tape(found[TAPES + k], inputs, 0, varying, &u->tape[k])) return 0;
         if (outputs[k] >= 0 && u->tape[k].outputs != outputs[k]) return 0;
     }
     /* A model without equations of its start is begun from outside. */
-    const int32_t head = u->tape[AC_HEAD].outputs;
+    const int32_t head = u->tape[AC_HEAD].outputs, n = e->nx + e->nz;
+    ac_section at = found[SCALE_PATTERN];
+    if (!ac_read_columns(&at, u->watched, n, &u->scale_start, &u->scale_row) || at.left) return 0;
+    if (u->tape[AC_SCALES].outputs != u->scale_start[n]) return 0;
     return head == u->switches + u->discretes || (!head && !found[SQUARE + 3 * AC_INITIAL + 2].left);
 }
 

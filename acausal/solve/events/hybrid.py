@@ -105,9 +105,9 @@ class Hybrid:
             at = integrator.restarted(at, way.moves)
         except InitializationError:
             return False
-        run, p = self._run(at, way), np.append(integrator.problem.p, integrator.settings.nominal)
+        run = self._run(at, way)
         how = {"step": self.ahead.step, "tolerance": way.tolerance, "damps": METHODS[way.method].damps}
-        run.begin(at.time, at.x, at.z, p, at.constants.vector, at.mode, **how)
+        run.begin(at.time, at.x, at.z, integrator.problem.p, at.constants.vector, at.mode, **how)
         run.state.weak, self._worked = weak, np.zeros(2)
         return True
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_equations
 from acausal.compiler.memo import memoized
-from acausal.compiler.runtime import NOTHING, Runtime
+from acausal.compiler.runtime import INNER, NOTHING, VERSION, Runtime
 from acausal.core import StoredModel
 from acausal.core.model_file import floats, framed, ints
 from acausal.solve.initialization.assembly import levels
@@ -18,8 +17,6 @@ from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
-
-VERSION = 6
 
 
 def stored(problem: Problem, at: Point, works: bool, moves: bool) -> StoredModel:
@@ -45,27 +42,24 @@ def stored(problem: Problem, at: Point, works: bool, moves: bool) -> StoredModel
 
 
 @memoized
-def runtime_of(compiled: CompiledModel, energies: bool) -> Runtime:
-    """Return the run-time object of a model; its parameters are those of the model, then nominal values."""
-    nominal = ca.SX.sym("nominal", compiled.nx + compiled.nz)
-    symbols = ca.vertcat(compiled.reduced.p, nominal)
-    return Runtime(
-        compiled, symbols, nominal, compiled.guards.watched, levels(compiled), closure_of(compiled), energies
-    )
+def _runtime(compiled: CompiledModel, energies: bool) -> Runtime:
+    """Return the run-time object of a model for runs."""
+    parameters, watched = compiled.reduced.p, compiled.guards.watched
+    return Runtime(compiled, parameters, watched, levels(compiled), closure_of(compiled), energies)
 
 
 @memoized
 def _sections(compiled: CompiledModel, energies: bool) -> dict[str, bytes]:
     """Sections that do not change from run to run."""
-    runtime, guards, c = runtime_of(compiled, energies), compiled.guards, compiled
-    instants = guards.scheduled.function(c.reduced.p, c.reduced.constants)
-    counts = guards.n_switches, guards.n_discretes, len(c.constraints.closures)
+    runtime, guards, r = _runtime(compiled, energies), compiled.guards, compiled.reduced
+    instants = guards.scheduled.function(r.p, r.constants)
+    counts = guards.n_switches, guards.n_discretes, len(compiled.constraints.closures)
     nothing = runtime.tape(NOTHING)
     return {
         **runtime.sections,
         "layout": runtime.layout(counts, 0, 0, instants.numel(), 0),
-        "roles": ints(np.full(runtime.symbols.numel(), 4)),
-        "starts": ints(np.full(c.nx, -1)),
+        "roles": ints(np.full(r.p.numel(), INNER)),
+        "starts": ints(np.full(compiled.nx, -1)),
         "inputs": b"",
         **runtime.square("begin", NOTHING, 3, []),
         **dict.fromkeys(("head", "shown", "timed", "limits"), nothing),
@@ -91,11 +85,11 @@ def run_file(problem: Problem, settings: Settings, at: Point, tolerance: float) 
         Relative tolerance.
     """
     compiled, nominal = problem.compiled, settings.nominal
-    runtime, free = runtime_of(compiled, settings.energy), np.empty(0, dtype=int)
+    runtime, free = _runtime(compiled, settings.energy), np.empty(0, dtype=int)
     start = StoredModel(
         runtime.equations,
         at.time,
-        *(at.x, at.z, np.append(problem.p, nominal), at.constants.vector),
+        *(at.x, at.z, problem.p, at.constants.vector),
         size=nominal[: compiled.nx],
         rate=are_rates(problem),
         names=compiled.states,
