@@ -35,8 +35,6 @@ class Passed:
         Point that was reached.
     events : list of float
         Times of the events in s.
-    peak : array
-        Largest value of each event indicator since the last event, positive while nothing changes.
     crossed : array of bool, optional
         Conditions that change at `at`, if the event there is left to the caller.
     weak : int
@@ -48,7 +46,6 @@ class Passed:
     legs: list[Leg]
     at: Point
     events: list[float]
-    peak: np.ndarray
     crossed: np.ndarray | None
     weak: int
     work: np.ndarray
@@ -69,6 +66,7 @@ class Hybrid:
         self.ahead, self.integrator, self.times = ahead, ahead.integrator, times
         self._made: tuple[Way, Run] | None = None
         self._wait, self._next, self._worked = 0, 1, np.zeros(2)
+        self._limits: dict[str, int] = {}  # steps of a slice, and between two outputs
         self._at: Point | None = None  # where the run pauses
         self._decides = decides(self.integrator.compiled)
 
@@ -78,7 +76,8 @@ class Hybrid:
         if at is not self._at and not self._begin(at, way, weak):
             return None
         run, self._at = self._run(at, way), None
-        back, found = self._slice(run, end, way)
+        found = self._slice(run, end, way)
+        back = found.back
         if run.state.hasty:
             self.ahead.tell_of_haste(at.time)
         self._wait = self._next if back is Back.DOUBT else 0
@@ -93,7 +92,7 @@ class Hybrid:
         legs = self._legs(found)
         work = np.array([run.state.supplied, run.state.dissipated]) - self._worked
         changes = crossed if back is Back.EVENT else None
-        return Passed(legs, point, found.events.tolist(), peak, changes, run.state.weak, work)
+        return Passed(legs, point, found.events.tolist(), changes, run.state.weak, work)
 
     def _begin(self, at: Point, way: Way, weak: int) -> bool:
         """Begin at a point; return whether the core runs the model from there."""
@@ -111,20 +110,18 @@ class Hybrid:
         run.state.weak, self._worked = weak, np.zeros(2)
         return True
 
-    def _slice(self, run: Run, end: float, way: Way) -> tuple[Back, Recorded]:
+    def _slice(self, run: Run, end: float, way: Way) -> Recorded:
         """Run a slice and add its counts."""
         integrator = self.integrator
-        before = self._counts(run)
+        before, evaluations = self._counts(run), run.state.evaluations
 
         def counts() -> list[int]:
             return (self._counts(run) - before).tolist()
 
-        steps = at_once(core_equations(integrator.compiled, False, way.moves))
-        evaluations = run.state.evaluations
         with integrator.trace.counting(way.method, counts):
-            found = run.go(self.times, end, leaves=self._decides, steps=steps, longest=self._longest(way))
+            found = run.go(self.times, end, leaves=self._decides, **self._limits)
         integrator.consistent.evaluations += run.state.evaluations - evaluations
-        return found.back, found
+        return found
 
     @staticmethod
     def _counts(run: Run) -> np.ndarray:
@@ -163,4 +160,6 @@ class Hybrid:
             sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched)
             room = min(SAMPLING.rows, 4 + SAMPLING.numbers // sum(sizes[:3]))
             self._made = way, Run(content, sizes, room)
+            steps = at_once(core_equations(c, False, way.moves))
+            self._limits = {"steps": steps, "longest": self._longest(way)}
         return self._made[1]
