@@ -6,7 +6,7 @@ from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
-from acausal.core.run import Back, Rows, Run, RunState
+from acausal.core.run import Back, Doubt, Rows, Run, RunState
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.tape import Tape, make_tape
 
@@ -14,6 +14,7 @@ __all__ = [
     "LU",
     "Back",
     "Curve",
+    "Doubt",
     "End",
     "Equations",
     "Outputs",

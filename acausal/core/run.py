@@ -16,7 +16,7 @@ class Back(IntEnum):
     """Reason why a slice ended.
 
     The run is at its end; the row buffer is full; the slice took its number of steps; the run is at an event, which is left to
-    the caller; or the loop cannot decide what happens next.
+    the caller; the loop cannot decide what happens next; or other independent constraints are to be selected.
     """
 
     END = 0
@@ -24,6 +24,17 @@ class Back(IntEnum):
     PAUSED = 2
     EVENT = 3
     DOUBT = 4
+    UNFIT = 5
+
+
+class Doubt(IntEnum):
+    """Reasons of doubt, beside those of `End`.
+
+    Closed loops are in a singular configuration, or creep towards one; or algebraic unknowns jump.
+    """
+
+    SINGULAR = 16
+    FOLD = 17
 
 
 class RequestData(Structure):

@@ -208,3 +208,13 @@ int32_t ac_close(ac_instance *i, const double *held, double *from) {
     ac_moved(i);
     return failed;
 }
+
+/* Close all loops from near. */
+int32_t ac_close_all(ac_instance *i) {
+    double *held = i->other;
+    memset(held, 0, (size_t)ac_states(i) * sizeof *held);
+    const int32_t failed = close_levels(i, held, i->of->levels);
+    ac_follow_states(i);
+    ac_moved(i);
+    return failed;
+}

@@ -5,10 +5,22 @@
 
 #define PANELS 8 /* of a step, in each of which a rule of order 6 holds; of a part of a step, as many as it is long */
 
+/* The same where the equations have no unique solution within a short step: powers are taken from its ends. */
+static int32_t add_between_ends(ac_instance *i, double from, double to) {
+    const double step = i->now.to - i->now.from, part = ((from + to) / 2 - i->now.from) / step;
+    i->samples.time[0] = i->now.from, i->samples.time[1] = i->now.to;
+    ac_sample_step(i, 2);
+    const int32_t failed = ac_sample_energies(i, 2);
+    const double *power = i->samples.found;
+    for (int32_t j = 0; j < 2 && !failed; j++) i->energy[j] += (to - from) * ((1 - part) * power[j] + part * power[3 + j]);
+    return failed;
+}
+
 /* Add the integrals of the powers over a part of the last step. */
 int32_t ac_add_work(ac_instance *i, double from, double to) {
     const double step = i->now.to - i->now.from, h = to - from;
     if (!i->of->row_tape[AC_ENERGIES].outputs || !(h > 0) || !(step > 0)) return AC_OK;
+    if (i->now.crosses) return add_between_ends(i, from, to);
     const int32_t panels = (int32_t)fmax(1, fmin(PANELS, ceil(PANELS * h / step))), rows = panels * AC_NODES;
     double weight;
     for (int32_t k = 0; k < rows; k++) {

@@ -20,8 +20,9 @@ static void between(ac_instance *i, const ac_point *a, const ac_point *b, double
     i->now.time = a->time + s * h;
 }
 
-/* Whether loops pass a flat position between two points, which lie one step apart: the least value is looked for by golden sections. */
-int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
+/* Whether loops pass a flat position between two points, which lie one step apart, and where, as a part of the step: the least value is
+   looked for by golden sections. */
+int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b, double *where) {
     const ac_unit *u = i->of;
     const int32_t nx = ac_states(i);
     if (!u->levels || !(b->time > a->time)) return 0;
@@ -49,7 +50,7 @@ int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
         }
     }
     memcpy(i->x, kept, (size_t)nx * sizeof *kept);
-    i->now.time = time;
+    i->now.time = time, *where = (from + to) / 2;
     return least <= FLAT;
 }
 
@@ -61,7 +62,8 @@ int32_t ac_completed(ac_instance *i) {
     if (failed) return failed;
     const ac_point a = {i->now.from, i->before, i->after}, b = {i->now.time, i->dense, i->rate};
     memcpy(i->dense, i->x, size); /* the search moves x */
-    if (i->now.curved && ac_flat(i, &a, &b)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+    double where;
+    if (i->now.curved && ac_flat(i, &a, &b, &where)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
     memcpy(i->before, i->x, size);
     memcpy(i->after, i->rate, size);
     ac_keep(i);

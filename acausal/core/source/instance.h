@@ -75,6 +75,7 @@ typedef struct {
     double sure_time;                      /* of the last point at which the algebraic unknowns were solved for */
     double crowd;                          /* since when events follow one another closely */
     double delay;                          /* for how long the time of the event is uncertain by the tolerance */
+    double firm;                           /* conditioning of the kept constraints when the integration began; 0 where none is spare */
     double since, longer, last;            /* where the output interval begins; the longer of the last two steps, and the last one */
     int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
     int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
@@ -84,6 +85,7 @@ typedef struct {
     int32_t given;                         /* values were set since the last step, by which conditions may change at once */
     int32_t sure;                          /* whether there is such a point, with these parameters */
     int32_t taken;                         /* steps since closed loops were at their constraints */
+    int32_t pasts, crosses;                /* points that are remembered; whether the last step crosses a singular configuration */
     int32_t looked;                        /* whether conditions and rates at the end of the last step stand in `looks` */
 } ac_now;
 
@@ -93,6 +95,7 @@ enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16, AC_FACTO
 
 #define AC_ROWS 32         /* points at which indicators or powers are evaluated at once, at most */
 #define AC_FIRST_SAMPLES 8 /* samples of the first step after an event */
+#define AC_PAST 24         /* steps that are remembered to cross a singular configuration: they shrink by a third or less on the way */
 #define AC_SLOTS 52        /* samples of indicators in a step that are kept at a time */
 
 /* Points of a step: (AC_ROWS, ...) each; `found`: what is evaluated there; `solution`: of a square, `solved`: whether it is one. */
@@ -106,12 +109,20 @@ typedef struct {
     int64_t steps, refused, values, evaluations, begun;
 } ac_counts;
 
+/* Steps and refused steps up to a time, the farthest that a window of steps led, and slow windows in a row. */
+typedef struct {
+    int64_t steps, refused;
+    double time, farthest;
+    int32_t slow;
+} ac_window;
+
 struct ac_instance {
     const ac_unit *of;
     ac_now now;
     size_t saved;                           /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
     double *before, *after, *dense;         /* interpolant: (n), (n), (3, n); in Model Exchange the last point that was kept, its rates */
+    double *past;                           /* (AC_PAST, 1 + 2 nx) times, states and rates of the last steps, the latest first; for loops */
     double *sure;                           /* x and z of the last point at which z was solved for */
     double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
@@ -124,6 +135,7 @@ struct ac_instance {
     double *sampled, *errors, *row_w;       /* work of `ac_locate`; array of the row tapes */
     double *kept;                           /* what an event iteration that fails goes back to: x, z, c, truth, crossed */
     ac_counts counts;
+    ac_window window;                       /* of the integration */
     double energy[2];                       /* supplied and dissipated energy */
     struct ac_recorder *recorder;           /* of a run; NULL in Co-Simulation */
     double *step_y, step_time;              /* a step as the integrator writes it */
@@ -158,6 +170,9 @@ int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt,
                 double *found);
 int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
 int32_t ac_close(ac_instance *i, const double *held, double *from);
+int32_t ac_close_all(ac_instance *i);
+void ac_remember(ac_instance *i, const double *rate);
+int ac_cross(ac_instance *i);
 void ac_follow_states(ac_instance *i);                          /* guesses of coordinates where the states have them */
 int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
 double ac_dot(const double *a, const double *b, int32_t n);
@@ -184,7 +199,7 @@ void ac_add_jump(ac_instance *i, double change);
 double ac_sharpness(ac_instance *i);
 int ac_is_unfit(ac_instance *i);
 void ac_keep(ac_instance *i);
-int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
+int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b, double *where);
 int ac_is_flat(ac_instance *i);
 
 #endif

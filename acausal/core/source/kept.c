@@ -8,7 +8,8 @@
 #include <string.h>
 
 #define HALVINGS 60    /* of the interval that holds an eigenvalue: to rounding of the largest */
-#define FAIRLY 0.5    /* how well kept constraints hold the others: below, others are kept, as `simulate` does */
+#define UNFIT 0.25    /* how well kept constraints hold the others: below the first others are kept, from the second on ... */
+#define FAIRLY 0.5    /* ... they stay where an integration begins, as `simulate` does */
 
 /* Constraints of positions at the present, over the size of each equation: A (m, n), Q as much; how many of them are kept. */
 typedef struct {
@@ -139,21 +140,28 @@ static int spares(const ac_instance *i) {
     return 0;
 }
 
-static int unfit(held *h) { return h->kept && !(least(h, 1) >= FAIRLY * least(h, 0)); }
+/* How well the kept constraints hold the others: 1 is best, 0 is singular. */
+static double conditioning(held *h) {
+    if (!h->kept) return 1;
+    const double found = least(h, 1) / least(h, 0);
+    return found >= 0 ? fmin(found, 1) : 0;
+}
 
-/* Whether other constraints are to be kept at the present. */
+/* Whether other constraints are to be kept at the present: with hysteresis, as the best choice may be no better. */
 int ac_is_unfit(ac_instance *i) {
     held h;
     if (!spares(i) || !hold(i, &h)) return 0;
-    const int found = unfit(&h);
+    const int found = conditioning(&h) < UNFIT * (i->now.firm < UNFIT ? i->now.firm : 1);
     free(h.A);
     return found;
 }
 
-/* Keep others where that is so. */
+/* Keep others where an integration begins and these hold them badly. */
 void ac_keep(ac_instance *i) {
     held h;
+    i->now.firm = 0;
     if (!spares(i) || !hold(i, &h)) return;
-    if (unfit(&h)) choose(i, &h);
+    if (!i->recorder && conditioning(&h) < FAIRLY) choose(i, &h);
+    i->now.firm = conditioning(&h);
     free(h.A);
 }

@@ -76,6 +76,7 @@ int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state
     }
     if (failed == AC_PAUSE) end = ac_is_full(i) ? AC_RUN_FULL : AC_RUN_PAUSED;
     else if (failed == AC_LEAVE) end = AC_RUN_EVENT;
+    else if (failed == AC_EXCHANGE) end = AC_RUN_UNFIT;
     else if (failed) end = AC_RUN_DOUBT, ac_retreat(i);
     i->recorder = NULL;
     state->time = i->now.time, state->step = i->now.longer, state->hasty = i->now.hasty, state->weak = i->now.weak;

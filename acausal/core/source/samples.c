@@ -34,7 +34,7 @@ static row_inputs inputs_of(const ac_instance *i, const double *more, int32_t co
     };
 }
 
-/* Solve for the algebraic unknowns of a square in some rows. */
+/* Solve for the algebraic unknowns of a square in some rows; where rounding is more than their own values allow, to their nominal sizes. */
 static int32_t solve(ac_instance *i, int32_t square, int32_t rows) {
     const ac_square *q = &i->of->square[square];
     const ac_equations *e = &i->of->parts.model.equations;
@@ -42,13 +42,19 @@ static int32_t solve(ac_instance *i, int32_t square, int32_t rows) {
     ac_samples *s = &i->samples;
     double *scale = s->scale, *own = scale + e->nz;
     if (!q->n) return AC_OK;
-    const row_inputs in = inputs_of(i, NULL, 0);
+    row_inputs in = inputs_of(i, NULL, 0);
     find_scales(i, rows, s->z, scale);
     for (int32_t k = 0; k < q->n; k++) own[k] = scale[q->unknown[k] - first];
     i->counts.evaluations += ac_settle_rows(i->settler[square], rows, 5, 2, in.length, in.stride, in.part, own, SETTLED, s->solution, s->solved);
+    for (int32_t k = 0; k < q->n; k++) own[k] = fmax(own[k], i->of->size[q->unknown[k] - first]);
     for (int32_t r = 0; r < rows; r++) {
+        double *solution = s->solution + (ptrdiff_t)r * q->n, *z = s->z + (ptrdiff_t)r * e->nz;
+        if (!s->solved[r]) {
+            in.part[2] = s->x + (ptrdiff_t)r * e->nx, in.part[3] = z, in.part[4] = s->time + r;
+            i->counts.evaluations += ac_settle_rows(i->settler[square], 1, 5, 2, in.length, in.stride, in.part, own, SETTLED, solution, s->solved + r);
+        }
         if (!s->solved[r]) return ac_fail(i, AC_RETRY, AC_UNSOLVED_TEXT);
-        for (int32_t k = 0; k < q->n; k++) s->z[(ptrdiff_t)r * e->nz + q->unknown[k] - first] = s->solution[(ptrdiff_t)r * q->n + k];
+        for (int32_t k = 0; k < q->n; k++) z[q->unknown[k] - first] = solution[k];
     }
     return AC_OK;
 }

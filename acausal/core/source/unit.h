@@ -17,7 +17,7 @@ const char *ac_unit_token(const ac_unit *unit);    /* tells this model from othe
 /* Phases, in this order: being set up, being initialised, at an event, between events. */
 enum { AC_SET_UP, AC_INITIALISING, AC_AT_EVENT, AC_RUNNING };
 /* How a call ended: done; refused with nothing changed; tried elsewhere where steps are shorter; never again. */
-enum { AC_OK, AC_REFUSED, AC_RETRY, AC_FAILED, AC_PAUSE, AC_LEAVE }; /* the last two: of runs alone */
+enum { AC_OK, AC_REFUSED, AC_RETRY, AC_FAILED, AC_PAUSE, AC_LEAVE, AC_EXCHANGE }; /* the last three: of runs alone */
 
 /* An instance of a unit, which has to stay; NULL without memory. */
 AC_PUBLIC ac_instance *ac_instance_make(const ac_unit *unit);

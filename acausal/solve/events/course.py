@@ -26,7 +26,7 @@ from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.rests import ends_of_rests
 from acausal.solve.initialization.newton import NoConvergence
 from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.ladder import Failure
+from acausal.solve.integrate.ladder import Failure, Refusal, next_ways
 from acausal.solve.integrate.segment import segment
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
@@ -149,13 +149,14 @@ class Course:
             warn_of_many(self.integrator.compiled, time, self.times, guards)
 
     def _segment(self, at: Point, end: float) -> Point:
-        if not self.guards.watched:
-            while at.time < end:
-                at = segment(self.integrator, at, self.ahead.stride.grid(at.time, end))
-                self.ahead.stride.lengthen()
         while at.time < end:
             if passed := self.hybrid.go(at, end, self.weak):
                 at = self._passed(passed)
+                if passed.refusal is None or self._changes_way(passed.refusal):
+                    continue
+            if not self.guards.watched:
+                at = segment(self.integrator, at, self.ahead.stride.grid(at.time, end))
+                self.ahead.stride.lengthen()
                 continue
             instant, row = self.agenda.planned(at, at.time + self.ahead.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
@@ -165,6 +166,15 @@ class Course:
                 at = replace(at, time=end) if row == end else self._at_row(replace(at, time=max(row, instant)))
             self.integrator.report(at.time)
         return at
+
+    def _changes_way(self, refusal: Refusal) -> bool:
+        """Go on in the next way after a refusal; return False if there is none."""
+        rescues = self.integrator.settings.rescues(self.times, self.integrator.loops)
+        following = next_ways(self.integrator.way, refusal, rescues)
+        if following:
+            self.integrator.take(following[0], refusal)
+            self.hybrid.begin()
+        return bool(following)
 
     def _passed(self, passed: Passed) -> Point:
         """Keep what the core has passed; let what it left to Python happen at its end."""

@@ -8,12 +8,12 @@ import numpy as np
 
 from acausal.compiler.core_equations import core_equations
 from acausal.compiler.runtime import decides
-from acausal.core import Back, Run, library
+from acausal.core import Back, Doubt, End, Run, library
 from acausal.core import Rows as Recorded
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
-from acausal.solve.integrate.ladder import Way
+from acausal.solve.integrate.ladder import Kind, Refusal, Way
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import at_once
 from acausal.solve.integrate.stored import run_file
@@ -21,6 +21,13 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
 
 SAMPLING = POLICY.sampling
+REASONS = {
+    End.MANY: Kind.STEPS,
+    End.SHORT: Kind.ERROR_TEST,
+    End.UNSOLVED: Kind.CORRECTOR,
+    Doubt.SINGULAR: Kind.FLAT,
+    Doubt.FOLD: Kind.UNSOLVABLE,
+}
 
 
 @dataclass(frozen=True)
@@ -41,6 +48,8 @@ class Passed:
         Consecutive events with hardly any motion between them.
     work : array, shape (2,)
         Supplied and dissipated energy in J since the last row.
+    refusal : Refusal, optional
+        Why the loop cannot go on from there.
     """
 
     legs: list[Leg]
@@ -49,6 +58,7 @@ class Passed:
     crossed: np.ndarray | None
     weak: int
     work: np.ndarray
+    refusal: Refusal | None
 
 
 class Hybrid:
@@ -71,7 +81,7 @@ class Hybrid:
         self._decides = decides(self.integrator.compiled)
 
     def go(self, at: Point, end: float, weak: int) -> Passed | None:
-        """Run one slice towards the end of a segment, after `weak` weak events; return None if the loop made no progress."""
+        """Run one slice towards the end of a segment, after `weak` weak events; None if the loop does not run the model."""
         way = self.integrator.way
         if at is not self._at and not self._begin(at, way, weak):
             return None
@@ -82,8 +92,6 @@ class Hybrid:
             self.ahead.tell_of_haste(at.time)
         self._wait = self._next if back is Back.DOUBT else 0
         self._next = min(2 * self._next, SAMPLING.longest) if back is Back.DOUBT else 1
-        if run.state.time <= at.time and back in (Back.END, Back.DOUBT):
-            return None
         x, z, c, mode, peak, crossed = run.values()
         self.ahead.begin(run.state.step)
         self.ahead.locator.passed = np.maximum(self.ahead.locator.passed, peak)
@@ -92,11 +100,23 @@ class Hybrid:
         legs = self._legs(found)
         work = np.array([run.state.supplied, run.state.dissipated]) - self._worked
         changes = crossed if back is Back.EVENT else None
-        return Passed(legs, point, found.events.tolist(), changes, run.state.weak, work)
+        refusal = self._refusal(run, way) if back is Back.DOUBT else None
+        return Passed(legs, point, found.events.tolist(), changes, run.state.weak, work, refusal)
+
+    def begin(self) -> None:
+        """Run the next slice whatever came before."""
+        self._wait, self._next = 0, 1
+
+    def _refusal(self, run: Run, way: Way) -> Refusal:
+        """Return why the loop came back in doubt."""
+        kind = REASONS.get(run.state.why, Kind.OTHER)
+        if self.integrator.loops and way.method == "following" and kind in (Kind.ERROR_TEST, Kind.CORRECTOR):
+            kind = Kind.FLAT  # multipliers grow without end near a singular configuration
+        return Refusal(kind, run.state.time)
 
     def _begin(self, at: Point, way: Way, weak: int) -> bool:
         """Begin at a point; return whether the core runs the model from there."""
-        if self._wait or not self._fits(at, way):
+        if self._wait or not self._fits(way):
             self._wait = max(0, self._wait - 1)
             return False
         integrator = self.integrator
@@ -132,8 +152,9 @@ class Hybrid:
     def _longest(self, way: Way) -> int:
         """Return the largest number of steps between outputs, or the number after which vibrations are damped instead."""
         settings = self.integrator.settings
-        ringing = settings.first(way, self.times[[0, -1]]).ringing
-        return ringing.steps if ringing and settings.rings(ringing.interval) else way.max_steps
+        first = settings.first(way, self.times if not self.integrator.compiled.guards.watched else self.times[[0, -1]])
+        ringing = first.ringing
+        return ringing.steps if ringing and settings.rings(ringing.interval) else first.max_steps
 
     def _legs(self, found: Recorded) -> list[Leg]:
         """Return the recorded rows as legs of the trace."""
@@ -143,13 +164,13 @@ class Hybrid:
         work, self._worked = found.work - self._worked, found.work[-1]
         return [Leg(Rows(found.times, found.x, found.z, found.c), work, constants, 0)]
 
-    def _fits(self, at: Point, way: Way) -> bool:
-        """Return whether the core runs the model; independent subsets of redundant constraints are selected in Python."""
+    def _fits(self, way: Way) -> bool:
+        """Return whether the core runs the model."""
         integrator = self.integrator
         compiled = integrator.compiled
         if not library() or not METHODS[way.method].marches or not compiled.nx:
             return False
-        return not integrator.loops or (way.moves and at.constants.all_count)
+        return not integrator.loops or way.moves
 
     def _run(self, at: Point, way: Way) -> Run:
         """Return the run, created anew if the configuration has changed."""

@@ -1,0 +1,120 @@
+/* Closed loops cross a singular configuration by extrapolation. There the constraints are not independent and two motions lead on;
+   accelerations, which the constraints then leave open, spoil every step that comes near, so that steps shrink with the distance. The
+   motion itself is smooth: the polynomial through states and rates of earlier steps leads to the other side, where the loops are closed
+   by small changes. */
+#include "hybrid.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CLOSE 0.02   /* smallest singular value of the constraints over their sizes: farther away none is looked for */
+#define SPANS 4      /* of the crossing, from its begin back to the second node of the polynomial; to the third one twice as many */
+#define NODES 6      /* three points, each with its rates */
+#define CUBIC 4      /* of them, for the polynomial that tells the error */
+#define ERRS 10      /* tolerances by which the cubic may be off: the polynomial that is taken is two orders better */
+#define MOVES 30     /* tolerances by which closing may move a state, which divides errors by that value: of n-four-bar at 1e-4 17 */
+#define VANISHES 0.1 /* of that singular value, at the place where it should be 0: else loops pass beside the configuration */
+
+static double *past(const ac_instance *i, int32_t k) { return i->past + (size_t)k * (size_t)(1 + 2 * ac_states(i)); }
+
+/* Keep the end of the last step, at which rates are known. */
+void ac_remember(ac_instance *i, const double *rate) {
+    const size_t nx = (size_t)ac_states(i), length = 1 + 2 * nx;
+    if (i->now.pasts < AC_PAST) i->now.pasts++;
+    memmove(i->past + length, i->past, (AC_PAST - 1) * length * sizeof *i->past);
+    i->past[0] = i->now.to;
+    memcpy(i->past + 1, i->after, nx * sizeof *i->past);
+    memcpy(i->past + 1 + nx, rate, nx * sizeof *i->past);
+}
+
+/* The latest point at least some time before the last one, NULL for none. */
+static const double *before(const ac_instance *i, double time) {
+    for (int32_t k = 1; k < i->now.pasts; k++) {
+        if (*past(i, 0) - *past(i, k) >= time) return past(i, k);
+    }
+    return NULL;
+}
+
+/* Newton's polynomial through values and rates of a state at three points; returns by how much it differs from that through two. */
+static double extrapolated(const double *const point[3], int32_t k, int32_t nx, double time, double *found) {
+    double table[NODES], change = 0, product = 1;
+    for (int n = 0; n < NODES; n++) table[n] = point[n / 2][1 + k];
+    for (int order = 1; order < NODES; order++) {
+        for (int n = NODES - 1; n >= order; n--) {
+            const double span = *point[n / 2] - *point[(n - order) / 2];
+            table[n] = span == 0 ? point[n / 2][1 + nx + k] : (table[n] - table[n - 1]) / span;
+        }
+    }
+    *found = 0;
+    for (int n = 0; n < NODES; n++) {
+        *found += product * table[n];
+        if (n >= CUBIC) change += product * table[n];
+        product *= time - *point[n / 2];
+    }
+    return change;
+}
+
+static double size_of(const ac_instance *i, int32_t k, double value) {
+    return (i->now.damping > 0 ? i->of->damped : i->of->parts.model.size)[k] + fabs(value);
+}
+
+/* Stand at a time on the polynomial through points so far apart; return whether it is exact enough. */
+static int stand(ac_instance *i, double time, double span) {
+    const int32_t nx = ac_states(i);
+    const double *const point[] = {past(i, 0), before(i, span), before(i, 2 * span)};
+    if (!point[1] || !point[2]) return 0;
+    i->now.time = time;
+    ac_moved(i);
+    for (int32_t k = 0; k < nx; k++) {
+        const double error = extrapolated(point, k, nx, time, &i->x[k]);
+        if (!(fabs(error) <= ERRS * i->now.tolerance * size_of(i, k, i->x[k]))) return 0;
+    }
+    return 1;
+}
+
+/* Stand on the other side, if the polynomial leads there and loops close by little. */
+static int32_t stand_beyond(ac_instance *i, double way, double least) {
+    const int32_t nx = ac_states(i);
+    const double now = *past(i, 0), span = SPANS * 2 * way;
+    double *to = i->order;
+    if (!stand(i, now + way, span) || !(ac_sharpness(i) <= least) || !stand(i, now + 2 * way, span)) return AC_RETRY;
+    ac_put(to, i->x, nx);
+    if (ac_close_all(i)) return AC_RETRY;
+    for (int32_t k = 0; k < nx; k++) {
+        if (!(fabs(i->x[k] - to[k]) <= MOVES * i->now.tolerance * size_of(i, k, to[k]))) return AC_RETRY;
+    }
+    return ac_know(i, AC_RATE);
+}
+
+/* Let the crossing be the last step: states on Hermite's cubic, algebraic unknowns on a straight line. */
+static void put_step(ac_instance *i, const double *rate) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const int32_t nx = e->nx, n = nx + e->nz;
+    const double h = i->now.time - i->now.to;
+    ac_put(i->before, i->after, n), ac_put(i->after, i->x, nx), ac_put(i->after + nx, i->z, e->nz);
+    memset(i->dense, 0, 3 * (size_t)n * sizeof *i->dense);
+    for (int32_t k = 0; k < nx; k++) {
+        const double step = i->after[k] - i->before[k];
+        i->dense[k] = h * rate[k] - step, i->dense[n + k] = 2 * step - h * (rate[k] + i->rate[k]);
+    }
+    i->now.from = i->now.to, i->now.to = i->now.time, i->now.last = h;
+    i->now.curved = 1, i->now.integrates = 0, i->now.crosses = 1, i->now.event = INFINITY;
+}
+
+/* Cross a singular configuration that is close ahead of the end of the last step; return whether that is the last step now. */
+int ac_cross(ac_instance *i) {
+    const double time = i->now.time;
+    if (!i->of->levels || i->now.pasts < 3 || i->now.crosses) return 0;
+    const double here = ac_sharpness(i);
+    if (!(here < CLOSE)) return 0;
+    ac_stand(i, i->now.from);
+    const double there = ac_sharpness(i), way = here / (there - here) * (i->now.to - i->now.from);
+    if (there > here && time + 2 * way < i->now.end && !stand_beyond(i, way, VANISHES * here)) {
+        put_step(i, past(i, 0) + 1 + ac_states(i));
+        ac_remember(i, i->rate);
+        ac_stand(i, time);
+        return 1;
+    }
+    ac_stand(i, time);
+    return 0;
+}
