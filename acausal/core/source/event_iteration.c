@@ -44,9 +44,10 @@ static int holds(const ac_instance *i, int32_t k, double rate) {
     return value == 0 ? i->truth[k] > 0 : value < 0;
 }
 
-/* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all). */
+/* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all), and the time by which their instant
+   may be off. */
 typedef struct {
-    double *on, *fires;
+    double *on, *fires, leeway;
     int32_t changes;
 } round_of;
 
@@ -106,6 +107,7 @@ static int32_t look_at_conditions(ac_instance *i, round_of *r, int singly) {
     for (int32_t k = 0; k < u->watched; k++) i->other[k] = holds(i, k, rate[k]);
     if (singly) single_out(i);
     for (int32_t k = 0; k < u->watched; k++) {
+        if (i->other[k] != i->truth[k]) r->leeway = fmax(r->leeway, ac_leeway(i, k));
         note(u, r, k, i->other[k] > 0, i->truth[k] > 0);
         i->truth[k] = i->other[k];
     }
@@ -160,6 +162,7 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         for (int32_t k = 0; k < u->switches; k++) r.on[k] = i->c[k];
         memset(r.fires, 0, ((size_t)u->watched + (size_t)u->timed) * sizeof *r.fires);
         if (!round) look_at_clock(i, &r);
+        ac_save_round(i);
         failed = look_at_conditions(i, &r, round >= ROUNDS);
         if (failed || !r.changes) break;
         found->changed = 1;
@@ -167,7 +170,8 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         if (failed) break;
         for (int32_t k = 0; k < u->switches; k++) i->c[k] = r.on[k];
         ac_changed(i);
-        failed = ac_know(i, AC_RATE);
+        failed = ac_refuse_discontinuity(i, r.leeway);
+        if (!failed) failed = ac_know(i, AC_RATE);
     }
     if (round == ROUNDS + SINGLY) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
     if (failed) return AC_FAILED;

@@ -36,7 +36,8 @@ static size_t lay_out(ac_instance *i, double *at) {
         {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
         {&i->step_y, n}, {&i->order, 3 * n + 1}, {&i->sampled, AC_SLOTS * 3 * watched}, {&i->errors, AC_SLOTS * watched},
-        {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->samples.time, AC_ROWS}, {&i->samples.x, AC_ROWS * nx},
+        {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->round, n + nc + watched},
+        {&i->continuous, 2 * (size_t)u->tape[AC_CONTINUOUS].outputs}, {&i->samples.time, AC_ROWS}, {&i->samples.x, AC_ROWS * nx},
         {&i->samples.z, AC_ROWS * nz}, {&i->samples.found, AC_ROWS * (2 * watched + 3)}, {&i->samples.solution, AC_ROWS * most_of(nz, moving)},
         {&i->samples.scale, 2 * most_of(nz, moving)},
     };

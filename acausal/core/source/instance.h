@@ -8,8 +8,12 @@
 #include "settle.h"
 #include "unit.h"
 
-/* Tapes beside those of the equations; their inputs are x, z, t, p, c, too. */
-enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_TAPES };
+/* Tapes beside those of the equations; their inputs are x, z, t, p, c, too; of the last, then nominal values, new constants and
+   a time span. */
+enum {
+    AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_CONTINUOUS,
+    AC_TAPES
+};
 /* Square systems; their inputs are p, c, x, z, t: for all algebraic unknowns; for all unknowns at the start; for the algebraic
    unknowns that event indicators need, those that powers need; of the derivatives of the former, which are inputs behind t. */
 enum { AC_ALGEBRAIC, AC_INITIAL, AC_INDICATING, AC_POWERING, AC_MOVING, AC_SQUARES };
@@ -61,6 +65,7 @@ struct ac_unit {
     const double *nominal, *reach, *follows, *size; /* (nx + nz); (nx) where they close loops, see `coordinate_scaling.py`, and follow a jump; (nz) below which changes are rounding, see `settle.c` */
     const double *bound;                    /* (limits, 3): least value of each, 1 where it has to be above that, and what it is */
     const char *limited;                    /* names of parameters, or what is wrong otherwise, each with a 0 at its end */
+    const char *origin;                     /* of each expression that is differentiated, each with a 0 at its end; then the remedy */
     double span, tolerance;
     const char *token;
     double file[];
@@ -123,6 +128,7 @@ struct ac_instance {
     double *event_y, *crossing;             /* states and algebraic unknowns at the event; indicators that change there */
     double *sampled, *errors, *row_w;       /* work of `ac_locate`; array of the row tapes */
     double *kept;                           /* what an event iteration that fails goes back to: x, z, c, truth, crossed */
+    double *round, *continuous;             /* x, z, c, truth before a round of the event iteration; outputs of AC_CONTINUOUS, twice */
     ac_counts counts;
     double energy[2];                       /* supplied and dissipated energy */
     struct ac_recorder *recorder;           /* of a run; NULL in Co-Simulation */
@@ -174,6 +180,9 @@ void ac_find_scales(ac_instance *i);                            /* changes of wa
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be, by the scales found last */
 void ac_stand(ac_instance *i, double time);                     /* at a time within the last step of Co-Simulation */
 int32_t ac_refuse_jump(ac_instance *i);
+void ac_save_round(ac_instance *i);                             /* the point before a round of the event iteration */
+double ac_leeway(const ac_instance *i, int32_t guard);          /* time in which a watched condition changes by its scale */
+int32_t ac_refuse_discontinuity(ac_instance *i, double leeway); /* refuse jumps since the round began of what is differentiated */
 void ac_sample_step(ac_instance *i, int32_t rows);
 int32_t ac_sample_indicators(ac_instance *i, int32_t rows);
 int32_t ac_sample_energies(ac_instance *i, int32_t rows);
