@@ -99,6 +99,7 @@ class Runtime:
             "jumps": self.tape(self._jumps[0]),
             "jumpsto": ints([k for place in self._jumps[1] for k in place]),
             "closing": self.tape(ca.vertcat(self._constraints, _entries(self._closing))),
+            **self._laws,
             "unbroken": self._continuous,
             "origins": self._origins,
             "coords": self.tape(self._coordinates[0]),
@@ -207,6 +208,18 @@ class Runtime:
         return stacked(values), places
 
     @property
+    def _laws(self) -> dict[str, bytes]:
+        """Tape of the set-valued laws, whose inputs end with nominal values, and places of their discrete variables."""
+        laws, nz = self.compiled.guards.laws, self.compiled.nz
+        nominal = ca.SX.sym("nominal", self.compiled.nx + nz)
+        column, *slopes = laws.column(nominal) if len(laws) else (NOTHING, ca.SX(nz, 0), ca.SX(nz, 0))
+        return {
+            "laws": self._tape([*self._symbols, nominal], column),
+            "lawsto": ints(laws.places.ravel()),
+            "lawsat": b"".join(map(_pattern, slopes)),
+        }
+
+    @property
     def _continuous(self) -> bytes:
         """Tape of what is differentiated; its inputs go on with nominal values, new constants and a time span."""
         guards, unknowns = self.compiled.guards, self._symbols[:2]
@@ -240,11 +253,6 @@ class Runtime:
         place = {v: k for k, v in enumerate(r.plan.states)}
         to = [place[p.state] for p in r.plan.constrained.projections]
         return (dense(r.running.resolve(r.projections.coordinates)) if to else NOTHING), to
-
-
-def decides(compiled: CompiledModel) -> bool:
-    """Return whether events decide set-valued laws."""
-    return len(compiled.guards.laws.places) > 0
 
 
 def _entries(J: ca.SX) -> ca.SX:

@@ -38,7 +38,7 @@ static void evaluate(ac_instance *i, const double *constants, double leeway, dou
     *input++ = i->now.time;
     ac_put(input, i->p, e->np), input += e->np;
     ac_put(input, i->round + n, e->nc), input += e->nc;
-    ac_put(input, u->nominal, n), input += n;
+    input += n;
     ac_put(input, constants, e->nc), input += e->nc;
     *input = leeway;
     ac_tape_run(t, w, 0, t->runs);

@@ -151,6 +151,31 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     return jumped && u->constraints ? ac_close(i, held, before) : AC_OK;
 }
 
+/* Decide set-valued laws at rest; where jumps give them speeds, they slide, and the others are decided again. */
+static int32_t decide(ac_instance *i, const round_of *r) {
+    const ac_unit *u = i->of;
+    int32_t acts = 0, parted = 0;
+    if (!u->laws) return AC_OK;
+    ac_read_laws(i, i->round + u->parts.model.equations.nx + u->parts.model.equations.nz, i->law_values);
+    int32_t failed = ac_decide_laws(i, i->law_values);
+    for (int32_t k = 0; k < u->watched + u->timed; k++) acts |= r->fires[k] > 0;
+    if (!failed && acts) failed = ac_part_laws(i, &parted);
+    if (failed || !parted) return failed;
+    ac_read_laws(i, i->c, i->law_values);
+    return ac_decide_laws(i, i->law_values);
+}
+
+/* Apply what a round finds. */
+static int32_t apply(ac_instance *i, const round_of *r, int32_t *states) {
+    int32_t failed = jump(i, r, states);
+    if (failed) return failed;
+    for (int32_t k = 0; k < i->of->switches; k++) i->c[k] = r->on[k];
+    ac_changed(i);
+    failed = ac_refuse_discontinuity(i, r->leeway);
+    if (!failed) failed = decide(i, r);
+    return failed ? failed : ac_know(i, AC_RATE);
+}
+
 /* Everything that happens now. */
 int32_t ac_happen(ac_instance *i, ac_happened *found) {
     const ac_unit *u = i->of;
@@ -166,12 +191,7 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         failed = look_at_conditions(i, &r, round >= ROUNDS);
         if (failed || !r.changes) break;
         found->changed = 1;
-        failed = jump(i, &r, &found->states);
-        if (failed) break;
-        for (int32_t k = 0; k < u->switches; k++) i->c[k] = r.on[k];
-        ac_changed(i);
-        failed = ac_refuse_discontinuity(i, r.leeway);
-        if (!failed) failed = ac_know(i, AC_RATE);
+        failed = apply(i, &r, &found->states);
     }
     if (round == ROUNDS + SINGLY) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
     if (failed) return AC_FAILED;

@@ -136,6 +136,14 @@ int32_t ac_limits(ac_instance *i, int at_start) {
     return AC_OK;
 }
 
+/* Decide the set-valued laws at rest, and find the values with them. */
+static int32_t decide(ac_instance *i) {
+    ac_read_laws(i, i->c, i->law_values);
+    const int32_t failed = ac_decide_laws(i, i->law_values);
+    i->now.known |= AC_FIRST;
+    return failed ? failed : ac_know(i, AC_RATE | AC_GUARD);
+}
+
 int32_t ac_initial(ac_instance *i) {
     if (i->now.known & AC_FIRST) return AC_OK;
     if (ac_limits(i, 0)) return AC_REFUSED;
@@ -165,5 +173,5 @@ int32_t ac_initial(ac_instance *i) {
         const double value = i->guards[k];
         i->truth[k] = g->on >= 0 ? i->c[g->on] : !g->at_start && (value < 0 || (value == 0 && g->inclusive));
     }
-    return AC_OK;
+    return decide(i) ? AC_FAILED : AC_OK;
 }

@@ -8,11 +8,11 @@
 #include "settle.h"
 #include "unit.h"
 
-/* Tapes beside those of the equations; their inputs are x, z, t, p, c, too; of the last, then nominal values, new constants and
-   a time span. */
+/* Tapes beside those of the equations; their inputs are x, z, t, p, c, too; of the last two, then nominal values; of the last, then
+   new constants and a time span. */
 enum {
-    AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_CONTINUOUS,
-    AC_TAPES
+    AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_LAWS,
+    AC_CONTINUOUS, AC_TAPES
 };
 /* Square systems; their inputs are p, c, x, z, t: for all algebraic unknowns; for all unknowns at the start; for the algebraic
    unknowns that event indicators need, those that powers need; of the derivatives of the former, which are inputs behind t. */
@@ -59,7 +59,10 @@ struct ac_unit {
     const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     const int32_t *multiplier, *stands;     /* (constraints) places among z; (standing, 2) places of coordinates among z, and of their states */
-    int32_t standing;
+    int32_t standing, laws;                 /* numbers of those places and of set-valued laws */
+    const int32_t *law;                     /* (laws, 5) places of their mode, offset, shared, share and slip among the discrete variables */
+    const int32_t *gradient_start, *gradient_row, *law_start, *law_row; /* sparsity (nz, laws) in columns: of the derivatives of their
+                                               rates by z, of those of g by their shares */
     ac_level level[AC_LEVELS];
     const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
     const double *nominal, *reach, *follows, *size; /* (nx + nz); (nx) where they close loops, see `coordinate_scaling.py`, and follow a jump; (nz) below which changes are rounding, see `settle.c` */
@@ -129,6 +132,7 @@ struct ac_instance {
     double *sampled, *errors, *row_w;       /* work of `ac_locate`; array of the row tapes */
     double *kept;                           /* what an event iteration that fails goes back to: x, z, c, truth, crossed */
     double *round, *continuous;             /* x, z, c, truth before a round of the event iteration; outputs of AC_CONTINUOUS, twice */
+    double *law_values, *redundant;         /* (laws, 5) before a decision; (laws) 1 for those that are redundant */
     ac_counts counts;
     double energy[2];                       /* supplied and dissipated energy */
     struct ac_recorder *recorder;           /* of a run; NULL in Co-Simulation */
@@ -180,6 +184,11 @@ void ac_find_scales(ac_instance *i);                            /* changes of wa
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be, by the scales found last */
 void ac_stand(ac_instance *i, double time);                     /* at a time within the last step of Co-Simulation */
 int32_t ac_refuse_jump(ac_instance *i);
+int32_t ac_linearise(ac_instance *i);                           /* factors of g_z at the present */
+void ac_evaluate(const ac_instance *i, const ac_tape *t, double *w); /* a tape of x, z, t, p, c at the present */
+void ac_read_laws(const ac_instance *i, const double *c, double *found); /* discrete variables of the laws, (laws, 5) */
+int32_t ac_decide_laws(ac_instance *i, const double *was);      /* laws at rest, given those variables before the event */
+int32_t ac_part_laws(ac_instance *i, int32_t *parted);
 void ac_save_round(ac_instance *i);                             /* the point before a round of the event iteration */
 double ac_leeway(const ac_instance *i, int32_t guard);          /* time in which a watched condition changes by its scale */
 int32_t ac_refuse_discontinuity(ac_instance *i, double leeway); /* refuse jumps since the round began of what is differentiated */
