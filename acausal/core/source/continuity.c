@@ -19,6 +19,16 @@ void ac_save_round(ac_instance *i) {
     ac_put(saved, i->truth, i->of->watched);
 }
 
+void ac_restore_round(ac_instance *i) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const double *saved = i->round;
+    ac_put(i->x, saved, e->nx), saved += e->nx;
+    ac_put(i->z, saved, e->nz), saved += e->nz;
+    ac_put(i->c, saved, e->nc), saved += e->nc;
+    ac_put(i->truth, saved, i->of->watched);
+    ac_changed(i);
+}
+
 static double finite(double x) { return isnan(x) ? 0 : fmin(fmax(x, -MOST), MOST); }
 
 double ac_leeway(const ac_instance *i, int32_t guard) {

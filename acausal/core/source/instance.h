@@ -114,6 +114,16 @@ typedef struct {
     int64_t steps, refused, values, evaluations, begun;
 } ac_counts;
 
+#define AC_MODES 84 /* modes that a search tries: 5,000 sets of up to 8 saturations in random monotone feedback took 2 for each at most */
+
+/* Search for a mode: n numbers, of which those at `place` are switches; the others, as discrete variables, change with them. */
+typedef struct {
+    int32_t n, switches, *place;            /* (switches) */
+    double *seen;                           /* (AC_MODES, n) modes in their order */
+    int32_t count, first, cycle;            /* of them; where modes begin to repeat themselves, after how many; 0 until they do */
+    int32_t changes, base, *order, *chosen; /* enumeration: switches that change, and the mode of the cycle that they change */
+} ac_mode_search;
+
 struct ac_instance {
     const ac_unit *of;
     ac_now now;
@@ -133,6 +143,8 @@ struct ac_instance {
     double *kept;                           /* what an event iteration that fails goes back to: x, z, c, truth, crossed */
     double *round, *continuous;             /* x, z, c, truth before a round of the event iteration; outputs of AC_CONTINUOUS, twice */
     double *law_values, *redundant;         /* (laws, 5) before a decision; (laws) 1 for those that are redundant */
+    ac_mode_search search;
+    double *mode;                           /* that is tried: switches, discrete variables, x; then that before */
     ac_counts counts;
     double energy[2];                       /* supplied and dissipated energy */
     struct ac_recorder *recorder;           /* of a run; NULL in Co-Simulation */
@@ -189,7 +201,10 @@ void ac_evaluate(const ac_instance *i, const ac_tape *t, double *w); /* a tape o
 void ac_read_laws(const ac_instance *i, const double *c, double *found); /* discrete variables of the laws, (laws, 5) */
 int32_t ac_decide_laws(ac_instance *i, const double *was);      /* laws at rest, given those variables before the event */
 int32_t ac_part_laws(ac_instance *i, int32_t *parted);
+void ac_begin_search(ac_instance *i, int32_t n);                /* for a mode of n numbers */
+int ac_next_mode(ac_mode_search *s, const double *current, double *mode); /* in place of the mode that the values of the current one imply */
 void ac_save_round(ac_instance *i);                             /* the point before a round of the event iteration */
+void ac_restore_round(ac_instance *i);
 double ac_leeway(const ac_instance *i, int32_t guard);          /* time in which a watched condition changes by its scale */
 int32_t ac_refuse_discontinuity(ac_instance *i, double leeway); /* refuse jumps since the round began of what is differentiated */
 void ac_sample_step(ac_instance *i, int32_t rows);

@@ -9,7 +9,7 @@
 
 #define RESPONDS 1e-8     /* response of a rate to its own force, over the sizes of its terms: below it is zero */
 #define INDEPENDENT 1e-8  /* rounding of the response of a rate to other forces, over its terms */
-#define NOISE (1e3 * DBL_EPSILON) /* rounding of an equation, over its terms: sums of up to 1,000 of them */
+#define ROUNDING (1e3 * DBL_EPSILON) /* rounding of an equation, over its terms: sums of up to 1,000 of them */
 #define MOVES 100.0       /* speed over its tolerance at which a law does not rest, as a jump brought it there: events are located to about 1 */
 
 /* Discrete variables of a law. */
@@ -78,7 +78,7 @@ static int32_t find_responses(ac_instance *i, decision *d) {
         d->noise[k] = 0;
         for (int32_t j = 0; j < nz; j++) d->noise[k] += fabs(influence[j]) * d->terms[j];
         for (int32_t j = gradient[k]; j < gradient[k + 1]; j++) d->noise[k] += fabs(d->by_unknown[j] * i->z[u->gradient_row[j]]);
-        d->noise[k] *= NOISE;
+        d->noise[k] *= ROUNDING;
     }
     for (int32_t k = 0; k < n; k++) {
         double *own = d->response + k * n, terms = fabs(d->by_share[k * n + k]);
