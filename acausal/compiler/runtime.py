@@ -17,9 +17,15 @@ from acausal.instructions import READABLE
 from acausal.language.functions import time
 from acausal.symbols import dense, picked, stacked
 
-VERSION = 6  # of the file format, as in unit.c
+VERSION = 7  # of the file format, as in unit.c
 INNER = 4  # role of a parameter that no importer sees, as in instance.h
 NOTHING = ca.SX(0, 1)
+# Why what is differentiated must not jump, and what to do instead.
+NO_DERIVATIVE = (
+    "a jump has no derivative. Let the cases of piecewise meet where they switch: a speed by a ramp, "
+    "piecewise((0, time < t1), (c * (time - t1), time < t2), c * (t2 - t1)), an angle with its slope as well; "
+    "or let a state jump by when(..., reinit(...))"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +99,9 @@ class Runtime:
             "jumps": self.tape(self._jumps[0]),
             "jumpsto": ints([k for place in self._jumps[1] for k in place]),
             "closing": self.tape(ca.vertcat(self._constraints, _entries(self._closing))),
+            **self._laws,
+            "unbroken": self._continuous,
+            "origins": self._origins,
             "coords": self.tape(self._coordinates[0]),
             "coordsto": ints(self._coordinates[1]),
             "closeat": _pattern(self._closing),
@@ -126,7 +135,10 @@ class Runtime:
 
     def tape(self, column: ca.SX) -> bytes:
         """Return an expression of x, z, time, parameters and constants as a section holds it."""
-        function = ca.Function("tape", self._symbols, [dense(self.moving(column))], READABLE)
+        return self._tape(self._symbols, column)
+
+    def _tape(self, arguments: list[ca.SX], column: ca.SX) -> bytes:
+        function = ca.Function("tape", arguments, [dense(self.moving(column))], READABLE)
         return tape_bytes(make_tape(function, early=(3, 4)))
 
     def square(
@@ -196,6 +208,36 @@ class Runtime:
         return stacked(values), places
 
     @property
+    def _laws(self) -> dict[str, bytes]:
+        """Tape of the set-valued laws, whose inputs end with nominal values, and places of their discrete variables."""
+        laws, nz = self.compiled.guards.laws, self.compiled.nz
+        nominal = ca.SX.sym("nominal", self.compiled.nx + nz)
+        column, *slopes = laws.column(nominal) if len(laws) else (NOTHING, ca.SX(nz, 0), ca.SX(nz, 0))
+        return {
+            "laws": self._tape([*self._symbols, nominal], column),
+            "lawsto": ints(laws.places.ravel()),
+            "lawsat": b"".join(map(_pattern, slopes)),
+        }
+
+    @property
+    def _continuous(self) -> bytes:
+        """Tape of what is differentiated; its inputs go on with nominal values, new constants and a time span."""
+        guards, unknowns = self.compiled.guards, self._symbols[:2]
+        nominal, span = ca.SX.sym("nominal", sum(part.numel() for part in unknowns)), ca.SX.sym("span")
+        new = ca.SX.sym("new", self.compiled.reduced.constants.numel())
+        column = NOTHING
+        if guards.differentiated:
+            column = ca.vertcat(*guards.continuous.function(*guards.arguments, new, nominal, span))
+        return self._tape([*self._symbols, nominal, new, span], column)
+
+    @property
+    def _origins(self) -> bytes:
+        """Origins of what is differentiated, then what to do where it jumps."""
+        differentiated = self.compiled.guards.differentiated
+        texts = [*map(str, differentiated), NO_DERIVATIVE] if differentiated else []
+        return b"".join(text.encode() + b"\0" for text in texts)
+
+    @property
     def _constraints(self) -> ca.SX:
         running = self.compiled.reduced.running
         return dense(running.constraints) if self.compiled.constraints.size else NOTHING
@@ -211,12 +253,6 @@ class Runtime:
         place = {v: k for k, v in enumerate(r.plan.states)}
         to = [place[p.state] for p in r.plan.constrained.projections]
         return (dense(r.running.resolve(r.projections.coordinates)) if to else NOTHING), to
-
-
-def decides(compiled: CompiledModel) -> bool:
-    """Return whether events decide set-valued laws, or may let something jump that is differentiated."""
-    guards = compiled.guards
-    return bool(guards.differentiated) or len(guards.laws.places) > 0
 
 
 def _entries(J: ca.SX) -> ca.SX:

@@ -14,6 +14,7 @@ from acausal.compiler.call import Call
 from acausal.flatten.discontinuities import Law
 from acausal.flatten.origin import Origin
 from acausal.reduce import ReducedModel
+from acausal.symbols import stacked
 
 MODE, OFFSET, SHARED, SHARE, SLIP = range(5)
 
@@ -81,14 +82,31 @@ class SetValuedLaws:
             matrices.append(scipy.sparse.csc_matrix((entries, pattern.row(), pattern.colind()), shape=pattern.shape))
         return LawValues(speed, rate, limit, size, by_share.reshape(len(self), -1, order="F"), *matrices)
 
+    def release(self, head: Any) -> None:
+        """Release laws at rest, in place among switches and discrete variables, until they are decided: they may be redundant."""
+        mode, shared = (self._first + self.places[:, [MODE, SHARED]].T).tolist()
+        if mode:
+            head[shared] = head[mode] == 0
+
+    @property
+    def _first(self) -> int:
+        """Number of switches, which come before the discrete variables."""
+        return len(self._reduced.flat.discontinuities.switches)
+
+    def column(self, nominal: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
+        """Return the values as a column, sparse entries last, and both Jacobians with a column for each law."""
+        *dense, by_unknown, equations = self._call.function(*self._arguments, nominal)
+        slopes = by_unknown.T, equations
+        entries = [stacked(J.nz[:].elements()) for J in slopes if J.nnz()]
+        return ca.vertcat(*(ca.vec(value) for value in dense), *entries), *slopes
+
     @cached_property
     def _call(self) -> Call:
         r = self._reduced
         columns = [ca.vertcat(*[getattr(law, name) for law in self._laws]) for name in ("speed", "rate", "limit")]
         speed, rate, limit = (r.running.resolve(column) for column in columns)
         unknowns, nominal = ca.vertcat(r.x, r.z), ca.SX.sym("nominal", r.x.numel() + r.z.numel())
-        first = len(r.flat.discontinuities.switches)
-        shares = r.constants[(first + self.places[:, SHARE]).tolist()]
+        shares = r.constants[(self._first + self.places[:, SHARE]).tolist()]
         size = ca.fabs(ca.jacobian(speed, unknowns)) @ nominal
         dense = [ca.densify(e) for e in (speed, rate, limit, size, ca.jacobian(rate, shares))]
         slopes = [ca.jacobian(rate, r.z), ca.jacobian(r.running.alg, shares)]

@@ -15,8 +15,8 @@ from acausal.locks import unlocked
 class Back(IntEnum):
     """Reason why a slice ended.
 
-    The run is at its end; the row buffer is full; the slice took its number of steps; the run is at an event, which is left to
-    the caller; the loop cannot decide what happens next; or other independent constraints are to be selected.
+    The run is at its end; the row buffer is full; the slice took its number of steps; the run is at an event whose iteration
+    failed; the loop cannot decide what happens next; or other independent constraints are to be selected.
     """
 
     END = 0
@@ -42,7 +42,6 @@ class RequestData(Structure):
 
     _fields_ = (
         ("end", c_double),
-        ("leaves", c_int32),
         ("steps", c_int64),
         ("longest", c_int64),
         ("outputs", c_int32),
@@ -160,7 +159,7 @@ class Run:
         self.state = RunState(time=time, step=step)
         self._library.ac_run_begin(self._memory, time, step, tolerance, damps, *map(address, given))
 
-    def go(self, outputs: np.ndarray, end: float, *, leaves: bool, steps: int, longest: int = 2**62) -> Rows:
+    def go(self, outputs: np.ndarray, end: float, *, steps: int, longest: int = 2**62) -> Rows:
         """Run one slice towards an end; the interpreter lock is released meanwhile.
 
         Parameters
@@ -169,8 +168,6 @@ class Run:
             Output times in s, ascending.
         end : float
             End of the run in s.
-        leaves : bool
-            Whether what happens at events is left to the caller.
         steps : int
             Steps after which the slice ends, rejected steps included.
         longest : int
@@ -178,7 +175,7 @@ class Run:
         """
         outputs = np.ascontiguousarray(outputs, dtype=float)
         request = RequestData(
-            *(end, leaves, steps, longest, len(outputs), self._room, address(outputs)),
+            *(end, steps, longest, len(outputs), self._room, address(outputs)),
             *map(address, (*self._rows, self._events)),
         )
         call = self._library.ac_run_go
@@ -186,6 +183,12 @@ class Run:
         n, m = self.state.rows, self.state.events
         times, x, z, c, work = (rows[:n].copy() for rows in self._rows)
         return Rows(back, times[:, 0], x, z, c, work, self._events[:m].copy())
+
+    def redundant(self, laws: int) -> np.ndarray:
+        """Return which of the set-valued laws are redundant at rest, in the first decision that found some."""
+        found = np.zeros(laws)
+        self._library.ac_redundant_laws(self._memory, address(found))
+        return np.flatnonzero(found)
 
     @property
     def message(self) -> str:

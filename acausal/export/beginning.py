@@ -37,12 +37,15 @@ class Beginning:
         States that start at a number that can be changed, and its symbol.
     vibration : float
         Size of the largest eigenvalue that oscillates there, in 1/s.
+    releases : bool
+        Whether set-valued laws at rest have no force there, until they are decided.
     """
 
     at: Point
     residuals: ca.SX
     starts: dict[int, ca.SX]
     vibration: float
+    releases: bool
 
 
 def begin(problem: Problem, time: float, later: float, initial: str) -> Beginning:
@@ -62,7 +65,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     ExportError
         If it starts in a singular configuration: equations do not tell how it goes on.
     """
-    begun = start(problem, time, later, initial, decided_later=False)
+    begun = start(problem, time, later, initial)
     at = begun.point
     if leave_singular_start(problem, begun) is not at:
         raise ExportError(
@@ -75,7 +78,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     held = algebraic(problem, problem.projected(at)) if problem.compiled.constraints.size else at
     if initial == "steady":
         _refuse_singular(problem, held, residuals, starts)
-    return Beginning(held, residuals, starts, Spectrum(problem, at).vibration)
+    return Beginning(held, residuals, starts, Spectrum(problem, at).vibration, initial != "steady")
 
 
 def _refuse_singular(problem: Problem, at: Point, residuals: ca.SX, starts: dict[int, ca.SX]) -> None:

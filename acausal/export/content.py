@@ -86,7 +86,6 @@ class Content:
         constants, runtime, c = self.beginning.at.constants, self.runtime, self.compiled
         counts = len(constants.switches), len(constants.discretes), len(constants.closures)
         inputs = [k for pair in self.given.inputs for k in pair]
-        guards = c.guards
         return {
             **runtime.sections,
             **self._start.start,
@@ -97,7 +96,7 @@ class Content:
             "starts": ints([self.given.starts.get(k, -1) for k in range(c.nx)]),
             "inputs": ints([*inputs, len(self.given.roles) - 1] if inputs else []),
             **runtime.square("begin", self.beginning.residuals, None, range(c.nx + c.nz)),
-            "head": runtime.tape(guards.start.function(*guards.arguments)),
+            "head": runtime.tape(self._head),
             "shown": runtime.tape(self.shown),
             "timed": runtime.tape(self._truths),
             "instants": runtime.tape(self._instants),
@@ -113,6 +112,15 @@ class Content:
     @property
     def _timed(self) -> list[int]:
         return [k for k in self.compiled.guards.timed if k not in set(self.watched)]
+
+    @property
+    def _head(self) -> ca.SX:
+        """Switches and discrete variables at the start."""
+        guards = self.compiled.guards
+        head = guards.start.function(*guards.arguments)
+        if self.beginning.releases:
+            guards.laws.release(head)
+        return head
 
     @cached_property
     def _start(self) -> StoredModel:

@@ -38,16 +38,10 @@ class Laws:
     # Response of a rate to its own force, relative to the sum of the sizes of its terms: below it is zero. In slider-cranks it is
     # 0.05 to 0.3, and 1e-15 where a joint reverses.
     responds: float = 1e-8
-    # Schur complement of a response, relative to it, that is zero: round-off of sums of some terms.
+    # Round-off of the response of a rate to other forces, relative to its terms.
     independent: float = 1e-8
-    # Regularisation of redundant responses, relative to them: well below `independent`.
-    regular: float = 1e-10
-    # Distance of a force from its limit, relative to that, at which it has reached it.
-    limit: float = 1e-9
     # Speed over its tolerance at which a law does not rest, since a jump brought it there: events are located to about 1.
     moves: float = 100.0
-    # Most iterations of the active-set method for each law: random problems of 1 to 50 laws take 1.5.
-    rounds: int = 50
 
 
 @dataclass(frozen=True)

@@ -150,6 +150,15 @@ AC_PUBLIC int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress)
 AC_PUBLIC void ac_rodas_renew(ac_rodas *r);
 AC_PUBLIC void ac_rodas_free(ac_rodas *r);
 
+/* Friction forces of n laws at rest, as shares u of their limits: |u| <= 1, where the accelerations a = b - A u are 0 for |u| < 1 and have
+   the sign of u elsewhere. A (n, n) is positive semi-definite with a positive diagonal. The accelerations are unique; redundant
+   forces have the least norm of u_k sqrt(A_kk), which has no unit. `reached`: 1 or -1 for forces that have reached a limit, else 0; they
+   stay there if the others can hold their speeds, so that under a growing load each reaches its limit once. `sense`: of a speed that
+   leaves rest, 1 or -1, else 0; `sticks`: 1 for an independent subset of the speeds at rest, with which the others rest. Takes memory
+   while it runs; returns whether there was none. */
+AC_PUBLIC int32_t ac_shares(int32_t n, const double *A, const double *b, const double *reached, double *share, double *sense,
+                            double *sticks);
+
 /* A model as a file has it; the format is in docs/model-file.md. */
 typedef struct {
     ac_equations equations;

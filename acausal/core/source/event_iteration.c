@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUNDS 20      /* until switches fit each other */
-#define SINGLY 64      /* rounds beyond them, in which one switch changes at a time, as of `Assignments` of Python */
 #define SOON 1e-8      /* of the run: what changes sign within that time does so now */
 #define MOVES 1e-3     /* of the size in a run: a condition that changes less does not move */
 #define ADDED 1e-11    /* of the run, or of a late time: rounding of instants that add up, due + 0.1 again and again */
@@ -44,10 +42,11 @@ static int holds(const ac_instance *i, int32_t k, double rate) {
     return value == 0 ? i->truth[k] > 0 : value < 0;
 }
 
-/* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all). */
+/* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all), and the time by which their instant
+   may be off. */
 typedef struct {
-    double *on, *fires;
-    int32_t changes;
+    double *on, *fires, leeway;
+    int32_t changes, flips; /* whether anything changes, and watched switches */
 } round_of;
 
 static void note(const ac_unit *u, round_of *r, int32_t guard, int now, int before) {
@@ -84,32 +83,38 @@ static void look_at_clock(ac_instance *i, round_of *r) {
     i->now.time = time;
 }
 
-/* Let one switch change of those that would, one that no longer holds before others; until all fit, nothing acts. */
-static void single_out(ac_instance *i) {
+/* Take the next mode in place of the one that the values imply; until a mode is found that fits, nothing acts. */
+static int32_t search_mode(ac_instance *i, const round_of *r) {
     const ac_unit *u = i->of;
-    int32_t one = -1;
+    const int32_t n = u->switches + u->discretes, nx = ac_states(i);
+    double *mode = i->mode, *current = mode + n + nx;
+    ac_put(current, i->c, n), ac_put(current + n, i->x, nx);
+    ac_put(mode, current, n + nx), ac_put(mode, r->on, u->switches);
     for (int32_t k = 0; k < u->watched; k++) {
-        if (u->guard[k].on < 0 || i->other[k] == i->truth[k]) continue;
-        if (one < 0 || i->truth[k] > i->truth[one]) one = k;
+        if (u->guard[k].on >= 0) mode[u->guard[k].on] = i->other[k];
     }
-    if (one < 0) return;
-    const double now = i->other[one];
-    ac_put(i->other, i->truth, u->watched);
-    i->other[one] = now;
+    if (!ac_next_mode(&i->search, current, mode)) return ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
+    for (int32_t k = 0; k < u->watched && i->search.cycle; k++) i->other[k] = u->guard[k].on >= 0 ? mode[u->guard[k].on] : i->truth[k];
+    return AC_OK;
 }
 
-static int32_t look_at_conditions(ac_instance *i, round_of *r, int singly) {
+static int32_t look_at_conditions(ac_instance *i, round_of *r) {
     const ac_unit *u = i->of;
     const double *rate = i->guards + 2 * u->watched;
-    const int32_t failed = ac_indicator_rates(i);
+    int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
-    for (int32_t k = 0; k < u->watched; k++) i->other[k] = holds(i, k, rate[k]);
-    if (singly) single_out(i);
     for (int32_t k = 0; k < u->watched; k++) {
+        i->other[k] = holds(i, k, rate[k]);
+        r->flips |= u->guard[k].on >= 0 && i->other[k] != i->truth[k];
+    }
+    if (r->flips) failed = search_mode(i, r);
+    ac_save_round(i);
+    for (int32_t k = 0; k < u->watched && !failed; k++) {
+        if (i->other[k] != i->truth[k]) r->leeway = fmax(r->leeway, ac_leeway(i, k));
         note(u, r, k, i->other[k] > 0, i->truth[k] > 0);
         i->truth[k] = i->other[k];
     }
-    return AC_OK;
+    return failed;
 }
 
 /* The condition that fires whose jumps are the next, from one on, in the order of statements; -1 for none. */
@@ -149,27 +154,51 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     return jumped && u->constraints ? ac_close(i, held, before) : AC_OK;
 }
 
+/* Decide set-valued laws at rest; where jumps give them speeds, they slide, and the others are decided again. */
+static int32_t decide(ac_instance *i, const round_of *r) {
+    const ac_unit *u = i->of;
+    int32_t acts = 0, parted = 0;
+    if (!u->laws) return AC_OK;
+    ac_read_laws(i, i->round + u->parts.model.equations.nx + u->parts.model.equations.nz, i->law_values);
+    int32_t failed = ac_decide_laws(i, i->law_values);
+    for (int32_t k = 0; k < u->watched + u->timed; k++) acts |= r->fires[k] > 0;
+    if (!failed && acts) failed = ac_part_laws(i, &parted);
+    if (failed || !parted) return failed;
+    ac_read_laws(i, i->c, i->law_values);
+    return ac_decide_laws(i, i->law_values);
+}
+
+/* Apply what a round finds. */
+static int32_t apply(ac_instance *i, const round_of *r, int32_t *states) {
+    int32_t failed = jump(i, r, states);
+    if (failed) return failed;
+    for (int32_t k = 0; k < i->of->switches; k++) i->c[k] = r->on[k];
+    ac_changed(i);
+    failed = ac_refuse_discontinuity(i, r->leeway);
+    if (!failed) failed = decide(i, r);
+    return failed ? failed : ac_know(i, AC_RATE);
+}
+
 /* Everything that happens now. */
 int32_t ac_happen(ac_instance *i, ac_happened *found) {
     const ac_unit *u = i->of;
     memset(found, 0, sizeof *found);
     int32_t failed = ac_know(i, AC_RATE), round = 0;
-    for (; round < ROUNDS + SINGLY && !failed; round++) {
+    ac_begin_search(i, u->switches + u->discretes + ac_states(i));
+    for (; round < AC_MODES && !failed; round++) {
         /* As long as all constants and conditions, behind what the values of conditions and their rates need. */
         round_of r = {.on = i->flips, .fires = i->flips + u->switches};
         for (int32_t k = 0; k < u->switches; k++) r.on[k] = i->c[k];
         memset(r.fires, 0, ((size_t)u->watched + (size_t)u->timed) * sizeof *r.fires);
         if (!round) look_at_clock(i, &r);
-        failed = look_at_conditions(i, &r, round >= ROUNDS);
+        failed = look_at_conditions(i, &r);
         if (failed || !r.changes) break;
         found->changed = 1;
-        failed = jump(i, &r, &found->states);
-        if (failed) break;
-        for (int32_t k = 0; k < u->switches; k++) i->c[k] = r.on[k];
-        ac_changed(i);
-        failed = ac_know(i, AC_RATE);
+        failed = apply(i, &r, &found->states);
+        /* A mode of the search may have no solution. */
+        if (failed && r.flips && i->search.cycle) ac_restore_round(i), failed = AC_OK;
     }
-    if (round == ROUNDS + SINGLY) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
+    if (round == AC_MODES) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
     if (failed) return AC_FAILED;
     double between;
     for (int32_t k = 0; k < u->watched; k++) i->crossed[k] = 0;

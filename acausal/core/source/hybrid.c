@@ -235,7 +235,7 @@ static int32_t act(ac_instance *i) {
     }
     (void)ac_know(i, AC_Z); /* where it fails, so does the iteration */
     keep(i, 0);
-    if (!chatter && !i->recorder->run->leaves && !iterate(i, &changed)) {
+    if (!chatter && !iterate(i, &changed)) {
         ac_record_event(i, changed);
         return AC_OK;
     }

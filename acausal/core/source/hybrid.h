@@ -7,7 +7,6 @@
 /* What a run is asked for. */
 typedef struct {
     double end;                      /* where it stops; what happens there is left to the caller */
-    int32_t leaves;                  /* whether what happens at events is left to the caller */
     int64_t steps, longest;          /* steps, refused ones too: after which it pauses; between two outputs or events at most */
     int32_t outputs, room;           /* outputs in all; rows and events at most */
     const double *time;              /* (outputs) ascending */
@@ -34,7 +33,7 @@ struct ac_recorder {
     double energy[2];
 };
 
-/* Why a run came back: it is at its end; at its room; at its pause; at an event that is left to the caller; it is in doubt what happens
+/* Why a run came back: it is at its end; at its room; at its pause; at an event whose iteration failed; it is in doubt what happens
    next; other independent constraints are to be selected. */
 enum { AC_RUN_END, AC_RUN_FULL, AC_RUN_PAUSED, AC_RUN_EVENT, AC_RUN_DOUBT, AC_RUN_UNFIT };
 
@@ -50,6 +49,9 @@ AC_PUBLIC int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_st
 /* Values at the present: states, algebraic unknowns, constants, conditions that hold, greatest values of indicators since the last event,
    indicators that change now. */
 AC_PUBLIC void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *peak, double *crossed);
+
+/* Set-valued laws that are redundant at rest, in the first decision that found some. */
+AC_PUBLIC void ac_redundant_laws(const ac_instance *i, double *redundant);
 
 int ac_is_full(const ac_instance *i);
 void ac_record_event(ac_instance *i, int32_t changed); /* and stand there; a row where anything changed */

@@ -8,8 +8,6 @@
 #define FIRST 0.0625    /* of the way: the first step */
 #define SHORTEST 1e-10  /* of the way, as to a height of 1e9 m: two solutions meet, or there is none beyond */
 #define FAR 0.1         /* change of a state over its size in a step: more may lead to another solution */
-#define ROUNDS 20       /* until switches fit the values, as in Python */
-#define SINGLY 64       /* rounds beyond them, in which one switch changes at a time */
 
 /* Parameters, and the time, on the way from those of the file to those that are wanted. */
 static void stand(ac_instance *i, const double *p, double time, double s) {
@@ -93,29 +91,32 @@ static int is_wrong(const ac_instance *i, int32_t k, double found) {
     return !(k < u->switches && is_timed(u, k)) && !(fabs(i->c[k] - found) <= 1e-9 * fabs(found));
 }
 
-/* The switch that changes where one does at a time: one that no longer holds before others; -1 for none. */
-static int32_t single(const ac_instance *i, const double *w) {
-    int32_t one = -1;
-    for (int32_t k = 0; k < i->of->switches; k++) {
-        if (is_wrong(i, k, w[i->of->tape[AC_HEAD].output[k]]) && (one < 0 || i->c[k] > i->c[one])) one = k;
-    }
-    return one;
-}
-
-/* Take the switches and discrete variables that fit the values; whether they did already. */
-static int fitting(ac_instance *i, int singly) {
+/* Find the switches and discrete variables that the values imply; whether they are the present ones. */
+static int fits(ac_instance *i, double *found) {
     const ac_unit *u = i->of;
     const double *w = ac_run(i, AC_HEAD);
-    const int32_t one = singly ? single(i, w) : -1;
     int same = 1;
     for (int32_t k = 0; k < u->switches + u->discretes; k++) {
-        const double found = w[u->tape[AC_HEAD].output[k]];
-        if (!is_wrong(i, k, found)) continue;
-        if (k >= u->switches || !singly || k == one) i->c[k] = found;
-        same = 0;
+        found[k] = w[u->tape[AC_HEAD].output[k]];
+        if (is_wrong(i, k, found[k])) same = 0;
+        else found[k] = i->c[k];
     }
-    if (!same) i->prepared = 0;
     return same;
+}
+
+/* Find values at the start with switches and discrete variables that they imply. */
+static int32_t search(ac_instance *i) {
+    const int32_t n = i->of->switches + i->of->discretes;
+    double *mode = i->mode;
+    ac_begin_search(i, n);
+    for (ac_put(mode, i->c, n); ac_next_mode(&i->search, i->c, mode);) {
+        ac_put(i->c, mode, n);
+        i->prepared = 0;
+        const int32_t failed = ac_solve(i, AC_INITIAL);
+        if (failed && !i->search.cycle) return ac_fail(i, failed, "the equations at the start have no solution.");
+        if (!failed && fits(i, mode)) return AC_OK;
+    }
+    return ac_fail(i, AC_FAILED, "no switches fit the values at the start.");
 }
 
 /* Refuse parameters beyond their limits and what the model requires of them, or what it requires of variables at the start. */
@@ -136,25 +137,28 @@ int32_t ac_limits(ac_instance *i, int at_start) {
     return AC_OK;
 }
 
+/* Decide the set-valued laws at rest, and find the values with them. */
+static int32_t decide(ac_instance *i) {
+    ac_read_laws(i, i->c, i->law_values);
+    const int32_t failed = ac_decide_laws(i, i->law_values);
+    i->now.known |= AC_FIRST;
+    return failed ? failed : ac_know(i, AC_RATE | AC_GUARD);
+}
+
 int32_t ac_initial(ac_instance *i) {
     if (i->now.known & AC_FIRST) return AC_OK;
     if (ac_limits(i, 0)) return AC_REFUSED;
     const ac_unit *u = i->of;
     double *p = i->dw; /* the wanted ones, while i->p is on the way */
     const double time = i->now.time;
-    int32_t failed = AC_OK, fits = 0;
+    int32_t failed = AC_OK;
     memcpy(p, i->p, (size_t)u->parts.model.equations.np * sizeof *p);
     ac_restart(i);
     i->prepared = 0;
     if (differs(i)) failed = follow(i, p, time);
     stand(i, p, time, 1);
     clock(i);
-    for (int32_t round = 0; round < ROUNDS + SINGLY && !failed && !fits; round++) {
-        failed = ac_solve(i, AC_INITIAL);
-        if (failed) ac_fail(i, failed, "the equations at the start have no solution.");
-        else fits = fitting(i, round >= ROUNDS);
-    }
-    if (!failed && !fits) failed = ac_fail(i, AC_FAILED, "no switches fit the values at the start.");
+    if (!failed) failed = search(i);
     if (failed) return AC_FAILED;
     if (ac_limits(i, 1)) return AC_REFUSED;
     i->now.known = AC_FIRST;
@@ -165,5 +169,5 @@ int32_t ac_initial(ac_instance *i) {
         const double value = i->guards[k];
         i->truth[k] = g->on >= 0 ? i->c[g->on] : !g->at_start && (value < 0 || (value == 0 && g->inclusive));
     }
-    return AC_OK;
+    return decide(i) ? AC_FAILED : AC_OK;
 }

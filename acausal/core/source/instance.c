@@ -22,8 +22,8 @@ static size_t lay_out(ac_instance *i, double *at) {
     const ac_equations *e = &u->parts.model.equations;
     const size_t nx = (size_t)e->nx, nz = (size_t)e->nz, n = nx + nz, np = (size_t)e->np, nc = (size_t)e->nc;
     const size_t watched = (size_t)u->watched, all = n + np + nc + (size_t)u->jumps + 3 * watched + 2;
-    const size_t moving = (size_t)u->square[AC_MOVING].n;
-    size_t longest = ac_tape_length(e->values), rows = 0, used = 0;
+    const size_t modes = nx + (size_t)u->switches + (size_t)u->discretes, moving = (size_t)u->square[AC_MOVING].n;
+    size_t longest = most_of(ac_tape_length(e->values), ac_tape_length(e->slopes)), rows = 0, used = 0;
     for (int k = 0; k < AC_ROW_TAPES; k++) rows = most_of(rows, ac_tape_length(&u->row_tape[k]));
     for (int k = 0; k < AC_TAPES; k++) longest = most_of(longest, ac_tape_length(&u->tape[k]));
     for (int k = 0; k < AC_SQUARES; k++) longest = most_of(longest, ac_tape_length(&u->squared[k]));
@@ -36,7 +36,9 @@ static size_t lay_out(ac_instance *i, double *at) {
         {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->past, u->levels ? AC_PAST * (1 + 2 * nx) : 0}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
         {&i->step_y, n}, {&i->order, 3 * n + 1}, {&i->sampled, AC_SLOTS * 3 * watched}, {&i->errors, AC_SLOTS * watched},
-        {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->samples.time, AC_ROWS}, {&i->samples.x, AC_ROWS * nx},
+        {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->round, n + nc + watched},
+        {&i->continuous, 2 * (size_t)u->tape[AC_CONTINUOUS].outputs}, {&i->law_values, 5 * (size_t)u->laws}, {&i->redundant, (size_t)u->laws},
+        {&i->mode, 2 * modes}, {&i->search.seen, AC_MODES * modes}, {&i->samples.time, AC_ROWS}, {&i->samples.x, AC_ROWS * nx},
         {&i->samples.z, AC_ROWS * nz}, {&i->samples.found, AC_ROWS * (2 * watched + 3)}, {&i->samples.solution, AC_ROWS * most_of(nz, moving)},
         {&i->samples.scale, 2 * most_of(nz, moving)},
     };
@@ -59,7 +61,8 @@ ac_instance *ac_instance_make(const ac_unit *unit) {
     i->of = unit;
     i->block = calloc(lay_out(i, NULL) + 1, sizeof *i->block);
     i->rodas = ac_rodas_make(&unit->parts.model.equations);
-    int good = i->block && i->rodas;
+    i->search.place = calloc(3 * (size_t)unit->switches + 1, sizeof *i->search.place);
+    int good = i->block && i->rodas && i->search.place;
     for (int k = 0; k < AC_SQUARES; k++) {
         i->settler[k] = ac_settler_make(&unit->square[k]);
         good = good && i->settler[k];
@@ -69,11 +72,18 @@ ac_instance *ac_instance_make(const ac_unit *unit) {
         return NULL;
     }
     lay_out(i, i->block);
-    const ac_tape *values = unit->parts.model.equations.values;
+    i->search.order = i->search.place + unit->switches, i->search.chosen = i->search.order + unit->switches;
+    for (int32_t k = 0; k < unit->watched; k++) {
+        if (unit->guard[k].on >= 0 && i->search.switches < unit->switches) i->search.place[i->search.switches++] = unit->guard[k].on;
+    }
+    const ac_equations *e = &unit->parts.model.equations;
+    const ac_tape *values = e->values;
     memcpy(i->values, values->constant, (size_t)values->constants * sizeof(double));
     for (int k = 0; k < AC_TAPES; k++) {
         memcpy(i->w[k], unit->tape[k].constant, (size_t)unit->tape[k].constants * sizeof(double));
     }
+    const ptrdiff_t inputs = (ptrdiff_t)e->nx + e->nz + 1 + e->np + e->nc;
+    for (int k = AC_LAWS; k <= AC_CONTINUOUS; k++) ac_put(i->w[k] + unit->tape[k].constants + inputs, unit->nominal, e->nx + e->nz);
     ac_reset(i);
     return i;
 }
@@ -82,6 +92,7 @@ void ac_instance_free(ac_instance *i) {
     if (!i) return;
     for (int k = 0; k < AC_SQUARES; k++) ac_settler_free(i->settler[k]);
     ac_rodas_free(i->rodas);
+    free(i->search.place);
     free(i->block);
     free(i);
 }
@@ -151,6 +162,16 @@ static void evaluate(ac_instance *i, const ac_tape *t, double *w, int32_t bit) {
 const double *ac_run(ac_instance *i, int32_t tape) {
     evaluate(i, &i->of->tape[tape], i->w[tape], 1 << tape);
     return i->w[tape];
+}
+
+void ac_evaluate(const ac_instance *i, const ac_tape *t, double *w) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const int32_t length[] = {e->nx, e->nz, 1, e->np, e->nc};
+    const double *const part[] = {i->x, i->z, &i->now.time, i->p, i->c};
+    double *input = w + t->constants;
+    ac_put(w, t->constant, t->constants);
+    for (int k = 0; k < 5; input += length[k++]) ac_put(input, part[k], length[k]);
+    ac_tape_run(t, w, 0, t->runs);
 }
 
 /* Solve a square system from the present values on. */

@@ -8,8 +8,12 @@
 #include "settle.h"
 #include "unit.h"
 
-/* Tapes beside those of the equations; their inputs are x, z, t, p, c, too. */
-enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_TAPES };
+/* Tapes beside those of the equations; their inputs are x, z, t, p, c, too; of the last two, then nominal values; of the last, then
+   new constants and a time span. */
+enum {
+    AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_LAWS,
+    AC_CONTINUOUS, AC_TAPES
+};
 /* Square systems; their inputs are p, c, x, z, t: for all algebraic unknowns; for all unknowns at the start; for the algebraic
    unknowns that event indicators need, those that powers need; of the derivatives of the former, which are inputs behind t. */
 enum { AC_ALGEBRAIC, AC_INITIAL, AC_INDICATING, AC_POWERING, AC_MOVING, AC_SQUARES };
@@ -55,12 +59,16 @@ struct ac_unit {
     const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     const int32_t *multiplier, *stands;     /* (constraints) places among z; (standing, 2) places of coordinates among z, and of their states */
-    int32_t standing;
+    int32_t standing, laws;                 /* numbers of those places and of set-valued laws */
+    const int32_t *law;                     /* (laws, 5) places of their mode, offset, shared, share and slip among the discrete variables */
+    const int32_t *gradient_start, *gradient_row, *law_start, *law_row; /* sparsity (nz, laws) in columns: of the derivatives of their
+                                               rates by z, of those of g by their shares */
     ac_level level[AC_LEVELS];
     const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
     const double *nominal, *reach, *follows, *size; /* (nx + nz); (nx) where they close loops, see `coordinate_scaling.py`, and follow a jump; (nz) below which changes are rounding, see `settle.c` */
     const double *bound;                    /* (limits, 3): least value of each, 1 where it has to be above that, and what it is */
     const char *limited;                    /* names of parameters, or what is wrong otherwise, each with a 0 at its end */
+    const char *origin;                     /* of each expression that is differentiated, each with a 0 at its end; then the remedy */
     double span, tolerance;
     const char *token;
     double file[];
@@ -116,6 +124,16 @@ typedef struct {
     int32_t slow;
 } ac_window;
 
+#define AC_MODES 84 /* modes that a search tries: 5,000 sets of up to 8 saturations in random monotone feedback took 2 for each at most */
+
+/* Search for a mode: n numbers, of which those at `place` are switches; the others, as discrete variables, change with them. */
+typedef struct {
+    int32_t n, switches, *place;            /* (switches) */
+    double *seen;                           /* (AC_MODES, n) modes in their order */
+    int32_t count, first, cycle;            /* of them; where modes begin to repeat themselves, after how many; 0 until they do */
+    int32_t changes, base, *order, *chosen; /* enumeration: switches that change, and the mode of the cycle that they change */
+} ac_mode_search;
+
 struct ac_instance {
     const ac_unit *of;
     ac_now now;
@@ -134,6 +152,10 @@ struct ac_instance {
     double *event_y, *crossing;             /* states and algebraic unknowns at the event; indicators that change there */
     double *sampled, *errors, *row_w;       /* work of `ac_locate`; array of the row tapes */
     double *kept;                           /* what an event iteration that fails goes back to: x, z, c, truth, crossed */
+    double *round, *continuous;             /* x, z, c, truth before a round of the event iteration; outputs of AC_CONTINUOUS, twice */
+    double *law_values, *redundant;         /* (laws, 5) before a decision; (laws) 1 for those that are redundant */
+    ac_mode_search search;
+    double *mode;                           /* that is tried: switches, discrete variables, x; then that before */
     ac_counts counts;
     ac_window window;                       /* of the integration */
     double energy[2];                       /* supplied and dissipated energy */
@@ -189,6 +211,17 @@ void ac_find_scales(ac_instance *i);                            /* changes of wa
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be, by the scales found last */
 void ac_stand(ac_instance *i, double time);                     /* at a time within the last step of Co-Simulation */
 int32_t ac_refuse_jump(ac_instance *i);
+int32_t ac_linearise(ac_instance *i);                           /* factors of g_z at the present */
+void ac_evaluate(const ac_instance *i, const ac_tape *t, double *w); /* a tape of x, z, t, p, c at the present */
+void ac_read_laws(const ac_instance *i, const double *c, double *found); /* discrete variables of the laws, (laws, 5) */
+int32_t ac_decide_laws(ac_instance *i, const double *was);      /* laws at rest, given those variables before the event */
+int32_t ac_part_laws(ac_instance *i, int32_t *parted);
+void ac_begin_search(ac_instance *i, int32_t n);                /* for a mode of n numbers */
+int ac_next_mode(ac_mode_search *s, const double *current, double *mode); /* in place of the mode that the values of the current one imply */
+void ac_save_round(ac_instance *i);                             /* the point before a round of the event iteration */
+void ac_restore_round(ac_instance *i);
+double ac_leeway(const ac_instance *i, int32_t guard);          /* time in which a watched condition changes by its scale */
+int32_t ac_refuse_discontinuity(ac_instance *i, double leeway); /* refuse jumps since the round began of what is differentiated */
 void ac_sample_step(ac_instance *i, int32_t rows);
 int32_t ac_sample_indicators(ac_instance *i, int32_t rows);
 int32_t ac_sample_energies(ac_instance *i, int32_t rows);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Factors of g_z and all values of its tape, at the present; the algebraic unknowns have to be known. */
-static int32_t linearise(ac_instance *i) {
+int32_t ac_linearise(ac_instance *i) {
     if (i->now.known & AC_FACTORS) return AC_OK;
     const ac_equations *e = &i->of->parts.model.equations;
     ac_settler *s = i->settler[AC_ALGEBRAIC];
@@ -30,7 +30,7 @@ static int32_t slopes(ac_instance *i, const double *dx, double dt, const double 
     const ac_equations *e = &i->of->parts.model.equations;
     ac_settler *s = i->settler[AC_ALGEBRAIC];
     const ac_tape *t = s->of.tape;
-    const int32_t failed = linearise(i);
+    const int32_t failed = ac_linearise(i);
     if (failed) return failed;
     memset(i->dw, 0, (size_t)(t->constants + t->inputs) * sizeof *i->dw);
     double *input = i->dw + t->constants;
@@ -126,7 +126,7 @@ int32_t ac_backward(ac_instance *i, const uint32_t *unknown, size_t unknowns, co
     double dt = 0, *dx, *dp, *dz, *of[3], *all = make(i, &dx, &dp, &dz, of);
     int32_t failed = all ? ac_know(i, AC_RATE | AC_SHOW | AC_GUARD) : ac_fail(i, AC_FAILED, "there is not enough memory.");
     if (!failed) failed = ac_pick(i, unknown, unknowns, of, seed, NULL);
-    if (!failed) failed = linearise(i);
+    if (!failed) failed = ac_linearise(i);
     if (!failed) {
         const int32_t count[] = {e->nx, u->shown, u->watched};
         for (int32_t kind = 0; kind < 3; kind++) {

@@ -5,20 +5,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 6
+#define VERSION 7
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, TAPES = SQUARE + 3 * AC_SQUARES, ROW_TAPES = TAPES + AC_TAPES,
     RULES = ROW_TAPES + AC_ROW_TAPES, JUMPS_TO, SCALE_PATTERN, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
-    DAMPED, NOMINAL, NATURAL, TOKEN, SECTIONS
+    DAMPED, NOMINAL, NATURAL, TOKEN, ORIGINS, LAWS_TO, LAW_PATTERNS, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "settleof", "begin", "beginat", "beginof", "needed", "neededat", "neededof", "power", "powerat", "powerof",
-    "moving", "movingat", "movingof", "head", "shown", "guards", "scales", "timed", "instants", "jumps", "closing", "coords", "limits", "watched",
+    "moving", "movingat", "movingof", "head", "shown", "guards", "scales", "timed", "instants", "jumps", "closing", "coords", "limits", "laws", "unbroken",
+    "watched",
     "energies",
     "rules", "jumpsto", "scalesat", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
-    "token",
+    "token", "origins", "lawsto", "lawsat",
 };
 
 const char *ac_unit_why(int32_t why) {
@@ -65,10 +66,11 @@ static int read_tapes(const ac_section *found, ac_unit *u) {
     const ac_equations *e = &u->parts.model.equations;
     const int32_t varying = e->nx + e->nz + 1, inputs = varying + e->np + e->nc;
     const int32_t outputs[AC_TAPES] = {
-        -1, u->shown, u->watched, -1, u->timed, u->instants, u->jumps, -1, -1, -1,
+        -1, u->shown, u->watched, -1, u->timed, u->instants, u->jumps, -1, -1, -1, -1, -1,
     };
     for (int k = 0; k < AC_TAPES; k++) {
-        if (!ac_read_tape(found[TAPES + k], inputs, 0, varying, &u->tape[k])) return 0;
+        const int64_t more = k == AC_CONTINUOUS ? (int64_t)varying + e->nc : k == AC_LAWS ? varying - 1 : 0;
+        if (more > INT32_MAX - inputs || !ac_read_tape(found[TAPES + k], inputs + (int32_t)more, 0, varying, &u->tape[k])) return 0;
         if (outputs[k] >= 0 && u->tape[k].outputs != outputs[k]) return 0;
     }
     /* A model without equations of its start is begun from outside. */
@@ -134,6 +136,16 @@ static int read_rules(const ac_section *found, ac_unit *u) {
     return 1;
 }
 
+/* Set-valued laws: their discrete variables, and the sparsity of what the tape of them ends with. */
+static int read_laws(const ac_section *found, ac_unit *u) {
+    const int32_t nz = u->parts.model.equations.nz, n = u->laws = (int32_t)(found[LAWS_TO].left / (5 * sizeof *u->law));
+    ac_section at = found[LAW_PATTERNS];
+    u->law = integers(found[LAWS_TO], 5 * (int64_t)n);
+    return u->law && ac_within(u->law, 5 * n, u->discretes) && ac_read_columns(&at, nz, n, &u->gradient_start, &u->gradient_row)
+        && ac_read_columns(&at, nz, n, &u->law_start, &u->law_row) && !at.left
+        && u->tape[AC_LAWS].outputs == (4 + (int64_t)n) * n + u->gradient_start[n] + u->law_start[n];
+}
+
 static int read_closing(const ac_section *found, ac_unit *u) {
     const int32_t nx = u->parts.model.equations.nx;
     ac_section at = found[CLOSE_PATTERN], level = found[LEVELS];
@@ -165,15 +177,21 @@ static int read_closing(const ac_section *found, ac_unit *u) {
     return !level.left && ac_within(u->coordinate, u->tape[AC_COORDINATES].outputs, nx);
 }
 
-/* Bounds of what is limited, with a text for each. */
-static int read_limits(const ac_section *found, ac_unit *u) {
-    ac_section bound = found[BOUNDS], names = found[LIMITED];
-    const int32_t count = u->tape[AC_LIMITS].outputs;
+/* Texts that fill a section, each with a 0 at its end; NULL where they are not as many. */
+static const char *texts(ac_section s, int32_t count) {
     size_t ends = 0;
+    for (size_t k = 0; k < s.left; k++) ends += !s.at[k];
+    return ends == (size_t)count && (count ? !s.at[s.left - 1] : !s.left) ? (const char *)s.at : NULL;
+}
+
+/* Bounds of what is limited, with a text for each; origins of what is differentiated. */
+static int read_limits(const ac_section *found, ac_unit *u) {
+    ac_section bound = found[BOUNDS];
+    const int32_t count = u->tape[AC_LIMITS].outputs, continuous = u->tape[AC_CONTINUOUS].outputs / 3;
     u->bound = ac_take(&bound, 3 * (int64_t)count, sizeof *u->bound);
-    u->limited = (const char *)names.at;
-    for (size_t k = 0; k < names.left; k++) ends += !names.at[k];
-    return u->bound && !bound.left && names.at && ends == (size_t)count && (count ? !names.at[names.left - 1] : !names.left);
+    u->limited = texts(found[LIMITED], count);
+    u->origin = texts(found[ORIGINS], continuous ? continuous + 1 : 0);
+    return u->bound && !bound.left && u->limited && u->origin && u->tape[AC_CONTINUOUS].outputs == 3 * continuous;
 }
 
 static int read_numbers(const ac_section *found, ac_unit *u) {
@@ -193,7 +211,7 @@ static int read_numbers(const ac_section *found, ac_unit *u) {
 
 static int read_all(const ac_section *found, ac_unit *u) {
     return ac_read_parts(found, &u->parts) && !u->parts.model.equations.powers && read_layout(found, u) && read_tapes(found, u)
-        && read_squares(found, u) && read_rules(found, u) && read_closing(found, u)
+        && read_squares(found, u) && read_rules(found, u) && read_laws(found, u) && read_closing(found, u)
         && read_limits(found, u) && read_numbers(found, u);
 }
 

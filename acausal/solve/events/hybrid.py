@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.compiler.core_equations import core_equations
-from acausal.compiler.runtime import decides
 from acausal.core import Back, Doubt, End, Run, library
 from acausal.core import Rows as Recorded
 from acausal.errors import InitializationError
@@ -78,7 +77,7 @@ class Hybrid:
         self._wait, self._next, self._worked = 0, 1, np.zeros(2)
         self._limits: dict[str, int] = {}  # steps of a slice, and between two outputs
         self._at: Point | None = None  # where the run pauses
-        self._decides = decides(self.integrator.compiled)
+        self._laws = ahead.instants.laws
 
     def go(self, at: Point, end: float, weak: int) -> Passed | None:
         """Run one slice towards the end of a segment, after `weak` weak events; None if the loop does not run the model."""
@@ -88,6 +87,7 @@ class Hybrid:
         run, self._at = self._run(at, way), None
         found = self._slice(run, end, way)
         back = found.back
+        self._laws.name(run.redundant(len(self._laws.laws)))
         if run.state.hasty:
             self.ahead.tell_of_haste(at.time)
         self._wait = self._next if back is Back.DOUBT else 0
@@ -139,7 +139,7 @@ class Hybrid:
             return (self._counts(run) - before).tolist()
 
         with integrator.trace.counting(way.method, counts):
-            found = run.go(self.times, end, leaves=self._decides, **self._limits)
+            found = run.go(self.times, end, **self._limits)
         integrator.consistent.evaluations += run.state.evaluations - evaluations
         return found
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
+from acausal.compiler.runtime import NO_DERIVATIVE
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.events.follow import follow
@@ -186,10 +187,7 @@ class Instants:
         if excess[worst] > 0:
             raise Failure(
                 at.time,
-                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}; a jump has no "
-                "derivative. Let the cases of piecewise meet where they switch: a speed by a ramp, "
-                "piecewise((0, time < t1), (c * (time - t1), time < t2), c * (t2 - t1)), an angle with its slope as well; "
-                "or let a state jump by when(..., reinit(...))",
+                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}; {NO_DERIVATIVE}",
             )
 
     def _jump(self, at: Point, fires: list[int], constants: Constants) -> Point:

@@ -9,9 +9,9 @@ import scipy
 
 from acausal.compiler.constants import Constants
 from acausal.compiler.set_valued_laws import MODE, OFFSET, SHARE, SHARED, SLIP, LawValues
+from acausal.core.shares import shares
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
-from acausal.solve.events.shares import shares
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -99,7 +99,7 @@ class Laws:
         rate, noise = rate[carried] + own @ share, noise[carried] + LAWS.independent * (np.abs(own) @ np.abs(share))
         sense[~answers] = np.where(np.abs(rate) > noise, np.sign(rate), 0.0)
         rests = sense == 0
-        self._name(resting[answers & rests & ~sticks])
+        self.name(resting[answers & rests & ~sticks])
         band = np.maximum(self.tolerance * found.size[resting], np.finfo(float).tiny)
         given = {
             MODE: sense,
@@ -134,7 +134,7 @@ class Laws:
         noise = NOISE * (np.abs(influence).T @ sizes + abs(G) @ np.abs(at.z))
         return response, certain, noise
 
-    def _name(self, redundant: np.ndarray) -> None:
+    def name(self, redundant: np.ndarray) -> None:
         """Warn once of redundant laws, whose forces the equations do not determine."""
         if self._named or not redundant.size:
             return

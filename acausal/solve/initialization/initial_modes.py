@@ -10,7 +10,6 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.full_residuals import EQUATION, START
-from acausal.compiler.set_valued_laws import MODE, SHARED
 from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.not_finite import cause, undefined_equations
@@ -32,7 +31,7 @@ NOT_FINITE = "the equations have no value at the start; check the start values."
 
 # Values that are not finite are reported as errors of the model; warnings of NumPy would name lines of this package.
 @np.errstate(all="ignore")
-def start(problem: Problem, time: float, later: float, initial: str, decided_later: bool = True) -> Start:
+def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     """Find consistent values at the start, and the mode that agrees with them.
 
     Parameters
@@ -43,8 +42,6 @@ def start(problem: Problem, time: float, later: float, initial: str, decided_lat
         Start time, and a time before the first time event.
     initial : "fixed", "guesses" or "steady"
         See `initialize`.
-    decided_later : bool
-        Whether an event iteration follows that decides on set-valued laws at rest.
 
     Raises
     ------
@@ -55,22 +52,23 @@ def start(problem: Problem, time: float, later: float, initial: str, decided_lat
         remedy = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
         raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{remedy}")
     try:
-        return _started(problem, time, later, initial, decided_later)
+        return _started(problem, time, later, initial)
     except NoEquilibrium as error:
         # Steady rotation comes last: a steady motion may precede an equilibrium on a contact.
         with suppress(InitializationError):
-            return _started(problem, time, later, TURNING, decided_later)
+            return _started(problem, time, later, TURNING)
         raise InitializationError(str(error)) from None
 
 
-def _started(problem: Problem, time: float, later: float, initial: str, decided_later: bool) -> Start:
+def _started(problem: Problem, time: float, later: float, initial: str) -> Start:
     guards, p = problem.compiled.guards, problem.p
     search = ModeSearch([k for k in guards.watched if k < guards.n_switches])
-    decided_later = decided_later and initial not in ("steady", TURNING)  # friction may hold an equilibrium
+    releases = initial not in ("steady", TURNING)  # friction may hold an equilibrium
     head = guards.estimate(p, time, later)[0].copy()
     if text := undefined_start_values(problem, first_guess(problem, time, head)):
         raise InitializationError(text)
-    head = _released(problem, head, decided_later)
+    if releases:
+        guards.laws.release(head)
     head = search.next(head, head)
     while head is not None and search.count <= MOST_TRIED:
         try:
@@ -85,7 +83,9 @@ def _started(problem: Problem, time: float, later: float, initial: str, decided_
             head = search.next(head, head if implied is None else implied)
             continue
         at = begun.point
-        new = _released(problem, _implied(problem, at, head), decided_later)
+        new = _implied(problem, at, head)
+        if releases:
+            guards.laws.release(new)
         same = (new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))
         # Switches within round-off of their threshold would alternate for ever.
         doubtful = _doubtful(problem, at) if search.count > 1 and not np.all(same) else np.empty(0, dtype=int)
@@ -94,15 +94,6 @@ def _started(problem: Problem, time: float, later: float, initial: str, decided_
             return replace(begun, point=replace(at, mode=_initial_mode(problem, at, doubtful, head)))
         head = search.next(head, np.where(same, head, new))
     raise InitializationError(_no_mode_text(problem.compiled, time, search))
-
-
-def _released(problem: Problem, head: np.ndarray, decided_later: bool) -> np.ndarray:
-    """Release set-valued laws at rest, in place, until the first event iteration decides: they may be redundant."""
-    laws = problem.compiled.guards.laws
-    places = problem.compiled.guards.n_switches + laws.places
-    if decided_later and len(laws):
-        head[places[:, SHARED]] = head[places[:, MODE]] == 0
-    return head
 
 
 def _implied(problem: Problem, at: Point, head: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@
 
 #define STEPS 20
 #define OUTPUTS 3
-#define UNIT 6 /* version of the files of units */
+#define UNIT 7 /* version of the files of units */
 
 static uint32_t version; /* of the file */
 

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("fmpy")
 
 from tests.acausal.export.hybrid import exported, simulated
-from tests.acausal.solve.saturated import Row
+from tests.acausal.solve.saturated import Row, Turned
 
 NAMES = ["a", "b", "c"]
 
@@ -23,6 +23,15 @@ def test_a_step_from_limits_to_between_them(kind: str, version: int, tmp_path: P
     for name in NAMES:
         np.testing.assert_allclose(found[name][before], 4, atol=1e-9)
         np.testing.assert_allclose(found[name][after], 0, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_a_step_of_a_law_that_is_not_monotone(kind: str, tmp_path: Path) -> None:
+    path = exported(Turned(), tmp_path / "a.fmu", 3, parameters={"m": 1.0, "k": -1.2})
+    found = simulated(path, kind, 1.0, output=["acceleration"])
+    beside = abs(found["time"] - 0.5) > 1e-3
+    expected = np.where(found["time"] < 0.5, -2, 2)
+    np.testing.assert_allclose(found["acceleration"][beside], expected[beside], atol=1e-9)
 
 
 def test_a_start_between_limits_from_one_at_them(tmp_path: Path) -> None:

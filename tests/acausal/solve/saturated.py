@@ -35,6 +35,19 @@ class Stepped(Saturated):
         return piecewise((6, time < 0.5), 0)
 
 
+class Turned(Saturated):
+    """With k = -1.2 and m = 1, which is not monotone, the step from -6 to 2 leads from the lower limit to the upper one."""
+
+    acceleration: Scalar = output("acceleration")
+
+    def given(self):
+        return piecewise((-6, time < 0.5), 2)
+
+    def equations(self):
+        yield from super().equations()
+        yield self.acceleration == self.a
+
+
 class Row(Model):
     """Three of them, each of which also feels a little of the one before; the input steps to 0."""
 

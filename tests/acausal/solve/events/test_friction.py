@@ -25,6 +25,7 @@ from acausal import (
     variable,
     when,
 )
+from acausal.core import Back, Run
 from components import rotational
 
 
@@ -90,6 +91,15 @@ class Coupled(Model):
 
     def connections(self):
         yield chain(self.a, self.clutch, self.b)
+
+
+def test_the_core_decides_what_sticks(monkeypatch):
+    """None of the events comes back to Python."""
+    backs, go = [], Run.go
+    monkeypatch.setattr(Run, "go", lambda *given, **more: (rows := go(*given, **more), backs.append(rows.back))[0])
+    run = ac.simulate(Block(), stop_time=10.0)
+    assert run.stats["events"] > 5
+    assert set(backs) == {Back.END}
 
 
 def test_clutch_locks_two_rotors():

@@ -188,17 +188,18 @@ def test_slide_and_joints_that_reverse_at_one_instant(tau, sticks, method):
     assert any("is redundant" in str(one.message) for one in caught) == sticks
 
 
+class Braked(Model):
+    drive = rotational.Torque(tau=time)
+    rotor = rotational.Inertia(J=1, phi=fixed(0), w=fixed(0))
+    one, other = rotational.Friction(tau_sliding=1.0, tau_static=1.2), rotational.Friction(tau_sliding=2.0)
+    wall = rotational.Fixed()
+
+    def connections(self):
+        yield chain(self.drive, self.rotor, self.one, self.wall.flange)
+        yield chain(self.rotor, self.other, self.wall.flange)
+
+
 def test_two_brakes_on_one_shaft():
-    class Braked(Model):
-        drive = rotational.Torque(tau=time)
-        rotor = rotational.Inertia(J=1, phi=fixed(0), w=fixed(0))
-        one, other = rotational.Friction(tau_sliding=1.0, tau_static=1.2), rotational.Friction(tau_sliding=2.0)
-        wall = rotational.Fixed()
-
-        def connections(self):
-            yield chain(self.drive, self.rotor, self.one, self.wall.flange)
-            yield chain(self.rotor, self.other, self.wall.flange)
-
     with pytest.warns(AcausalWarning, match=r"the friction of `(one|other)` is redundant"):
         run = ac.simulate(Braked(), stop_time=5.0)
     assert run.stats["event_times"][-1] == pytest.approx(3.2, abs=1e-6)

@@ -4,24 +4,28 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import lsq_linear
 
-from acausal.solve.events.shares import shares
+from acausal.core.shares import shares
 
 
 def problem(seed: int, n: int, rank: int):
     random = np.random.default_rng(seed)
     J = random.standard_normal((n, rank)) * 10.0 ** random.uniform(-2, 2, (n, 1))
-    return J @ J.T, J @ (random.standard_normal(rank) * 10.0 ** random.uniform(-1, 1.5))
+    return J, random.standard_normal(rank) * 10.0 ** random.uniform(-1, 1.5)
 
 
 @pytest.mark.parametrize("rank", [1, 2, 5])
 @pytest.mark.parametrize("n", [1, 3, 8])
 def test_complementarity(n, rank):
     for seed in range(20):
-        A, b = problem(seed, n, rank)
+        J, y = problem(seed, n, rank)
+        A, b = J @ J.T, J @ y
         found = shares(A, b, np.zeros(n))
         a, size = b - A @ found.share, np.abs(b) + np.abs(A) @ np.abs(found.share)
         assert np.all(np.abs(found.share) <= 1 + 1e-12)
+        exact = lsq_linear(J.T, y, (-1, 1), method="bvls", tol=1e-15).x
+        np.testing.assert_array_less(np.abs(A @ (found.share - exact)), 1e-7 * size)
         inside = np.abs(found.share) < 1 - 1e-9
         assert np.all(np.abs(a[inside]) <= 1e-6 * size[inside])
         assert np.all(a * found.share >= -1e-6 * size)
