@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from components.fe.formats.keywords import Block
-from components.fe.formats.text import number, wrong
+from components.fe.formats.text import file_error, number
 
 Move = Callable[[np.ndarray], np.ndarray]
 
@@ -36,7 +36,7 @@ def instance_of(deck: Sequence[Block]) -> tuple[list[Block], Move]:
     if not instances:
         return list(deck), lambda places: places
     if len(instances) > 1:
-        raise wrong(
+        raise file_error(
             instances[1].path,
             "there are several instances, whose nodes Abaqus renumbers; write the deck without parts and assembly",
             instances[1].line,
@@ -51,7 +51,7 @@ def instance_of(deck: Sequence[Block]) -> tuple[list[Block], Move]:
     beside = next((b for b in deck if b.keyword in ("NODE", "ELEMENT") and id(b) not in held), None)
     if beside is not None:
         what = f"*{beside.keyword} outside the instance makes Abaqus renumber the nodes; omit it to write the matrices"
-        raise wrong(beside.path, what, beside.line)
+        raise file_error(beside.path, what, beside.line)
     return inside, _placing(one)
 
 
@@ -81,7 +81,7 @@ def _placing(instance: Block) -> Move:
         if len(shift) != 3 or (turn is not None and len(turn) != 7):
             raise ValueError
     except ValueError:
-        raise wrong(
+        raise file_error(
             instance.path, "an instance needs a translation x, y, z, or also two points and an angle", instance.line
         ) from None
     if turn is None:
@@ -90,7 +90,7 @@ def _placing(instance: Block) -> Move:
     axis = second - first
     size = np.linalg.norm(axis)
     if size == 0:
-        raise wrong(instance.path, "the two points on the rotation axis of an instance coincide", instance.line)
+        raise file_error(instance.path, "the two points on the rotation axis of an instance coincide", instance.line)
     e = axis / size
     skew = np.array([[0, -e[2], e[1]], [e[2], 0, -e[0]], [-e[1], e[0], 0]])
     R = np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew

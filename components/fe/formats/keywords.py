@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from components.fe.formats.text import LARGEST, number, text_of, wrong
+from components.fe.formats.text import LARGEST, file_error, number, text_of
 
 DEEPEST = 20  # levels of *INCLUDE; more means that files include each other
 # Solid elements: first letters of the type in the deck, meshio's name, number of nodes, in the same order in both.
@@ -56,16 +56,18 @@ def blocks(path: str | Path, depth: int = 0) -> Iterator[Block]:
         If a file cannot be read or has no keyword.
     """
     if depth > DEEPEST:
-        raise wrong(path, f"*INCLUDE is nested more than {DEEPEST} levels deep")
+        raise file_error(path, f"*INCLUDE is nested more than {DEEPEST} levels deep")
     begun = False
     for block in _of_one_file(Path(path)):
         begun = True
         if block.keyword == "INCLUDE":
-            yield from blocks(_beside(block), depth + 1)
+            yield from blocks(_input_file(block), depth + 1)
         else:
             yield block
     if not begun:
-        raise wrong(path, "this is not an input file of Abaqus or CalculiX: no keyword such as *NODE begins a line")
+        raise file_error(
+            path, "this is not an input file of Abaqus or CalculiX: no keyword such as *NODE begins a line"
+        )
 
 
 def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
@@ -79,7 +81,7 @@ def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
     found: dict[int, np.ndarray] = {}
     for block in deck:
         if block.keyword in GENERATING:
-            raise wrong(
+            raise file_error(
                 block.path,
                 f"*{block.keyword} is not supported; write all nodes in global x, y, z under *NODE",
                 block.line,
@@ -87,15 +89,15 @@ def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
         if block.keyword != "NODE":
             continue
         if block.options.get("SYSTEM", "R").upper() != "R":
-            raise wrong(block.path, "nodes in cylindrical or spherical coordinates are not supported", block.line)
+            raise file_error(block.path, "nodes in cylindrical or spherical coordinates are not supported", block.line)
         for path, line, entries in _data(block):
             name, place = _node(path, line, entries)
             if name in found and not np.array_equal(found[name], place):
-                raise wrong(path, f"node {name} is defined twice, at different positions", line)
+                raise file_error(path, f"node {name} is defined twice, at different positions", line)
             found[name] = place
     if not found:
         where = deck[0].path if deck else ""
-        raise wrong(where, "there is no node under *NODE in this file")
+        raise file_error(where, "there is no node under *NODE in this file")
     return found
 
 
@@ -120,7 +122,9 @@ def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
                 yield kind, entries[1:][: needed or None]
                 entries = []
         if entries:
-            raise wrong(block.path, f"the last element has {len(entries) - 1} nodes, too few for a {kind}", block.line)
+            raise file_error(
+                block.path, f"the last element has {len(entries) - 1} nodes, too few for a {kind}", block.line
+            )
 
 
 def solid(kind: str) -> tuple[str, int]:
@@ -171,17 +175,17 @@ def _block(path: Path, line: int, text: str) -> Block:
     return Block(" ".join(name.upper().split()), values, path, line)
 
 
-def _beside(block: Block) -> Path:
+def _input_file(block: Block) -> Path:
     name = block.options.get("INPUT", "")
     if not name:
-        raise wrong(block.path, f"*{block.keyword} lacks INPUT=file", block.line)
+        raise file_error(block.path, f"*{block.keyword} lacks INPUT=file", block.line)
     return block.path.parent / name
 
 
 def _data(block: Block) -> Iterator[tuple[Path, int, list[str]]]:
     """Yield the data lines of a block, including those of the file that INPUT names."""
     if "INPUT" in block.options:
-        path = _beside(block)
+        path = _input_file(block)
         for place, line in enumerate(text_of(path, f"data of *{block.keyword}").splitlines(), 1):
             if line.strip() and not line.startswith("*"):
                 yield path, place, [entry.strip() for entry in line.split(",")]
@@ -194,9 +198,9 @@ def _node(path: Path, line: int, entries: list[str]) -> tuple[int, np.ndarray]:
         name = int(entries[0])
         place = np.array([number(entry) for entry in (*entries[1:4], "", "", "")[:3]])
     except ValueError:
-        raise wrong(path, f"a node needs number, x, y, z, not `{', '.join(entries)[:60]}`", line) from None
+        raise file_error(path, f"a node needs number, x, y, z, not `{', '.join(entries)[:60]}`", line) from None
     if not 0 < name <= LARGEST:
-        raise wrong(path, f"a node number must be from 1 to {LARGEST}, not {entries[0][:60]}", line)
+        raise file_error(path, f"a node number must be from 1 to {LARGEST}, not {entries[0][:60]}", line)
     return name, place
 
 
@@ -208,4 +212,4 @@ def _integers(path: Path, line: int, entries: list[str]) -> list[int]:
         return numbers
     except ValueError:
         shown = ", ".join(entries)[:60]
-        raise wrong(path, f"an element needs number, node, node, ..., not `{shown}`", line) from None
+        raise file_error(path, f"an element needs number, node, node, ..., not `{shown}`", line) from None

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from components.fe.formats.text import wrong
+from components.fe.formats.text import file_error
 
 Matrices = tuple[Any, Any, np.ndarray]
 
@@ -41,15 +41,15 @@ def from_entries(
         if index.size and (index.min() < 0 or index.max() >= n):
             place = int(np.flatnonzero((index < 0) | (index >= n))[0])
             at = f"({rows[place] + 1}, {columns[place] + 1})"
-            raise wrong(path, f"the entry {at} is outside the matrix of {n} equations")
+            raise file_error(path, f"the entry {at} is outside the matrix of {n} equations")
     matrix = sp.coo_array((values, (rows, columns)), (n, n)).tocsr()
     if matrix.nnz < values.size:
         order = np.lexsort((columns, rows))
         twice = order[1:][(np.diff(rows[order]) == 0) & (np.diff(columns[order]) == 0)][0]
-        raise wrong(path, f"the entry ({rows[twice] + 1}, {columns[twice] + 1}) occurs twice")
+        raise file_error(path, f"the entry ({rows[twice] + 1}, {columns[twice] + 1}) occurs twice")
     missing = np.setdiff1d(np.arange(n), rows[rows == columns])
     if full and missing.size:
-        raise wrong(path, f"equation {missing[0] + 1} of {n} has no diagonal entry; the file may be truncated")
+        raise file_error(path, f"equation {missing[0] + 1} of {n} has no diagonal entry; the file may be truncated")
     return mirrored(matrix)
 
 

@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from acausal import DeclarationError
 from acausal.result import shown_name
 from components.fe.formats.matrices import Matrices
-from components.fe.formats.text import numbers_in, text_of, whole_numbers, wrong
+from components.fe.formats.text import file_error, numbers_in, text_of, whole_numbers
 
 PARTS = ("M", "K", "nodes")
 ENDS = (".mtx", ".mtx.gz")
@@ -55,10 +55,12 @@ def read_matrix_market(path: str | Path | Sequence[str | Path], *, length: float
     M, K, nodes = (_read(file) for file in files)
     nodes = nodes.toarray() if sp.issparse(nodes) else np.asarray(nodes)
     if nodes.shape[1] != 3:
-        raise wrong(files[2], f"nodes must be a matrix of three columns, x, y, z; this one is {_size(nodes)}")
+        raise file_error(files[2], f"nodes must be a matrix of three columns, x, y, z; this one is {_size(nodes)}")
     for file, matrix in zip(files, (M, K), strict=False):
         if matrix.shape != (3 * len(nodes), 3 * len(nodes)):
-            raise wrong(file, f"the matrix is {_size(matrix)}, but {len(nodes)} nodes have {3 * len(nodes)} equations")
+            raise file_error(
+                file, f"the matrix is {_size(matrix)}, but {len(nodes)} nodes have {3 * len(nodes)} equations"
+            )
     return mass * sp.csr_array(M), mass * sp.csr_array(K), length * nodes
 
 
@@ -82,7 +84,7 @@ def _files(path: str | Path | Sequence[str | Path]) -> list[Path]:
     end = next((end for end in ENDS[::-1] if begin.endswith(end)), "")
     part = next((part for part in PARTS if end and begin.removesuffix(end).endswith(part)), None)
     if end and part is None:
-        raise wrong(path, "the name does not end in M.mtx, K.mtx or nodes.mtx; pass the names of all three files")
+        raise file_error(path, "the name does not end in M.mtx, K.mtx or nodes.mtx; pass the names of all three files")
     begin = begin.removesuffix(f"{part}{end}")
     return [_one(folder, begin, name) for name in PARTS]
 
@@ -91,7 +93,7 @@ def _one(folder: Path, begin: str, part: str) -> Path:
     names = [f"{begin}{mark}{part}{end}" for mark in ("", "_", "-", ".") for end in ENDS]
     found = next((name for name in names if (folder / name).is_file()), None)
     if found is None:
-        raise wrong(folder / begin, f"neither {names[0]} nor {begin}_{part}.mtx is in its folder")
+        raise file_error(folder / begin, f"neither {names[0]} nor {begin}_{part}.mtx is in its folder")
     return folder / found
 
 
@@ -100,28 +102,30 @@ def _read(path: Path) -> Any:
     lines = _text(path).split("\n")
     words = lines[0].lower().split()
     if len(words) != 5 or words[0] != BANNER.lower() or words[1] != "matrix":
-        raise wrong(path, f"a file in the Matrix Market format must begin with `{BANNER} matrix ...`", 1)
+        raise file_error(path, f"a file in the Matrix Market format must begin with `{BANNER} matrix ...`", 1)
     kind, entries, symmetry = words[2:]
     if kind not in KINDS or entries not in ("real", "integer", "double") or symmetry not in ("general", "symmetric"):
         shown = " ".join(words[2:])
-        raise wrong(path, f"a real matrix, general or symmetric, is expected, not `{shown_name(shown)}`", 1)
+        raise file_error(path, f"a real matrix, general or symmetric, is expected, not `{shown_name(shown)}`", 1)
     head = next((k for k, line in enumerate(lines) if k and line.strip() and not line.startswith("%")), len(lines) - 1)
     sizes = lines[head].split()
     if len(sizes) != KINDS[kind] or not all(size.isdecimal() for size in sizes):
-        raise wrong(
+        raise file_error(
             path,
             f"the size line needs {KINDS[kind]} integers, not `{shown_name(lines[head])}`",
             head + 1,
         )
     shape, symmetric = (int(sizes[0]), int(sizes[1])), symmetry == "symmetric"
     if symmetric and shape[0] != shape[1]:
-        raise wrong(path, f"a symmetric matrix must be square, not {sizes[0]} x {sizes[1]}", head + 1)
+        raise file_error(path, f"a symmetric matrix must be square, not {sizes[0]} x {sizes[1]}", head + 1)
     row = "row, column, value" if kind == "coordinate" else "value"
     values = numbers_in(path, "\n".join(lines[head + 1 :]), row, above=head + 1)
     dense = shape[0] * (shape[0] + 1) // 2 if symmetric else shape[0] * shape[1]
     count = int(sizes[2]) if kind == "coordinate" else dense
     if len(values) != count:
-        raise wrong(path, f"there are {len(values)} entries, but the header says {count}; the file may be truncated")
+        raise file_error(
+            path, f"there are {len(values)} entries, but the header says {count}; the file may be truncated"
+        )
     if kind == "array":
         return _dense(values[:, 0], shape, symmetric)
     values = values.reshape(-1, 3)
@@ -129,7 +133,7 @@ def _read(path: Path) -> Any:
     outside = (rows < 0) | (columns < 0) | (rows >= shape[0]) | (columns >= shape[1])
     if outside.any():
         at = f"({rows[outside][0] + 1}, {columns[outside][0] + 1})"
-        raise wrong(path, f"the entry {at} is outside the matrix of {sizes[0]} x {sizes[1]}")
+        raise file_error(path, f"the entry {at} is outside the matrix of {sizes[0]} x {sizes[1]}")
     below = symmetric & (rows != columns)
     rows, columns = np.concatenate([rows, columns[below]]), np.concatenate([columns, rows[below]])
     return sp.coo_array((np.concatenate([values[:, 2], values[below, 2]]), (rows, columns)), shape)
@@ -142,7 +146,7 @@ def _text(path: Path) -> str:
     try:
         return gzip.decompress(path.read_bytes()).decode("latin-1")
     except (OSError, EOFError, zlib.error) as error:
-        raise wrong(path, f"this is not a gzip file, or is damaged: {error}") from None
+        raise file_error(path, f"this is not a gzip file, or is damaged: {error}") from None
 
 
 def _dense(values: np.ndarray, shape: tuple[int, int], symmetric: bool) -> np.ndarray:

@@ -15,8 +15,8 @@ from components.fe.elements.assembly import FLAT
 from components.fe.formats.cdb import read_cdb
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices
-from components.fe.formats.text import doubt, text_of, wrong
-from components.fe.formats.third_party import existing, package, read_by
+from components.fe.formats.text import file_error, file_warning, text_of
+from components.fe.formats.third_party import call_reader, existing_file, optional_module
 from components.fe.nodes import Nodes
 
 NASTRAN = (".bdf", ".fem", ".nas")
@@ -54,17 +54,17 @@ def read_mesh(path: str | Path, *, E: float, nu: float, rho: float, length: floa
         If the file is missing, truncated or of another format, the solid has other elements, the material is
         impossible, or meshio is not installed (`pip install 'acausal[fe]'`).
     """
-    file = existing(path, "a mesh")
+    file = existing_file(path, "a mesh")
     places, cells, numbers = READERS.get(file.suffix.lower(), _mesh)(file)
     cells = {kind: rows for kind, rows in cells.items() if not kind.startswith(FLAT) and rows.size}
     if not cells:
-        raise wrong(file, "there are no solid elements in this mesh")
+        raise file_error(file, "there are no solid elements in this mesh")
     used = np.unique(np.concatenate([rows.ravel() for rows in cells.values()]))
     if used[0] < 0 or used[-1] >= len(places):
-        raise wrong(file, "an element refers to a node that is not in the file")
+        raise file_error(file, "an element refers to a node that is not in the file")
     cells = {kind: np.searchsorted(used, rows) for kind, rows in cells.items()}
     if "tetra" in cells:
-        doubt(
+        file_warning(
             path,
             "tetrahedra of 4 nodes are far too stiff in bending: the first frequency of a bar with one, two, four of "
             "them across is 86, 29, 9 % too high. Do this: mesh with tetrahedra of 10 nodes, in gmsh by `-order 2`",
@@ -89,9 +89,9 @@ def _deck(path: Path) -> tuple[np.ndarray, Cells, np.ndarray | None]:
 
 def _mesh(path: Path) -> tuple[np.ndarray, Cells, np.ndarray | None]:
     if path.suffix.lower() in TECPLOT:  # meshio loops for ever on a truncated file
-        raise wrong(path, "Tecplot meshes are not supported; use .vtu, .msh or .med")
+        raise file_error(path, "Tecplot meshes are not supported; use .vtu, .msh or .med")
     source = _bulk_data(path) if path.suffix.lower() in NASTRAN else path
-    meshio = package("meshio", "fe", "reading a mesh")
+    meshio = optional_module("meshio", "fe", "reading a mesh")
     said = io.StringIO()
 
     def read() -> Any:
@@ -102,10 +102,10 @@ def _mesh(path: Path) -> tuple[np.ndarray, Cells, np.ndarray | None]:
             except SystemExit:
                 raise ValueError(" ".join(said.getvalue().split())) from None
 
-    mesh = read_by(read, path, "a mesh that meshio reads")
+    mesh = call_reader(read, path, "a mesh that meshio reads")
     places = np.asarray(mesh.points, dtype=float)
     if places.ndim != 2 or places.shape[1] != 3 or not np.isfinite(places).all():
-        raise wrong(path, "the nodes of a solid need finite x, y, z")
+        raise file_error(path, "the nodes of a solid need finite x, y, z")
     cells: dict[str, list[np.ndarray]] = {}
     for block in mesh.cells:
         cells.setdefault(block.type, []).append(np.asarray(block.data))
@@ -116,7 +116,7 @@ def _bulk_data(path: Path) -> io.StringIO:
     """Return Nastran bulk data in the form that meshio accepts: with BEGIN BULK, which gmsh omits, and exponents E."""
     text = text_of(path, "bulk data of Nastran")
     if not re.search(r"^ENDDATA", text, re.MULTILINE):  # meshio loops for ever without it
-        raise wrong(path, "no line begins with ENDDATA: this is not Nastran bulk data, or is truncated")
+        raise file_error(path, "no line begins with ENDDATA: this is not Nastran bulk data, or is truncated")
     begun = re.search(r"^\s*BEGIN BULK", text, re.MULTILINE)
     return io.StringIO(("" if begun else "BEGIN BULK\n") + DOUBLE.sub("E", text))
 

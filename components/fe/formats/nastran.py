@@ -9,8 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from components.fe.formats.matrices import Matrices, mirrored
-from components.fe.formats.text import wrong
-from components.fe.formats.third_party import existing, package, read_by
+from components.fe.formats.text import file_error
+from components.fe.formats.third_party import call_reader, existing_file, optional_module
 from components.fe.nodes import Nodes
 
 DECKS = (".bdf", ".dat", ".nas", ".blk")
@@ -54,12 +54,14 @@ def read_nastran(path: str | Path, *, length: float = 1.0, mass: float = 1.0) ->
         If a file is missing, truncated or of another format, a grid point has a displacement coordinate system,
         rotations have stiffness or mass, or pyyeti is not installed (`pip install 'acausal[nastran]'`).
     """
-    file = existing(path, "matrices of Nastran")
+    file = existing_file(path, "matrices of Nastran")
     deck = next((file.with_suffix(end) for end in DECKS if file.with_suffix(end).is_file()), None)
     if deck is None:
-        raise wrong(file, f"there is no {file.stem}.bdf (or {', '.join(DECKS[1:])}) with the grid points in its folder")
-    op4 = package("pyyeti.nastran.op4", "nastran", "reading an OP4 file")
-    found = read_by(lambda: op4.read(str(file), sparse=True), file, "an OP4 file")
+        raise file_error(
+            file, f"there is no {file.stem}.bdf (or {', '.join(DECKS[1:])}) with the grid points in its folder"
+        )
+    op4 = optional_module("pyyeti.nastran.op4", "nastran", "reading an OP4 file")
+    found = call_reader(lambda: op4.read(str(file), sparse=True), file, "an OP4 file")
     numbers, places, cells = _grid(deck)
     M, K = (_displacements(file, *_named(file, found, letter), numbers) for letter in "mk")
     used = (abs(M) + abs(K)).diagonal().reshape(-1, 3).any(axis=1)
@@ -74,7 +76,7 @@ def _named(path: Path, found: dict[str, Any], letter: str) -> tuple[str, Any]:
     names = [name for name in found if name.lower().startswith(letter)]
     if len(names) != 1:
         have = ", ".join(name.upper() for name in found) or "none"
-        raise wrong(path, f"exactly one matrix name must begin with {letter.upper()}; the file has {have}")
+        raise file_error(path, f"exactly one matrix name must begin with {letter.upper()}; the file has {have}")
     return names[0].upper(), found[names[0]]
 
 
@@ -84,17 +86,17 @@ def _displacements(path: Path, name: str, matrix: Any, numbers: np.ndarray) -> A
     matrix = sp.csr_array(matrix)
     matrix.eliminate_zeros()
     if np.iscomplexobj(matrix.data) or not np.isfinite(matrix.data).all():
-        raise wrong(path, f"{name} has complex or non-finite entries")
+        raise file_error(path, f"{name} has complex or non-finite entries")
     if shape == (FREEDOMS * n, FREEDOMS * n):
         turning = np.arange(FREEDOMS * n) % FREEDOMS >= 3
         bad = np.flatnonzero(turning & ((np.diff(matrix.indptr) > 0) | (np.diff(matrix.tocsc().indptr) > 0)))
         if bad.size:
             what = f"{name} has entries for a rotation of grid point {numbers[bad[0] // FREEDOMS]}"
-            raise wrong(path, f"{what}; only solids are supported, whose degrees of freedom are displacements")
+            raise file_error(path, f"{what}; only solids are supported, whose degrees of freedom are displacements")
         matrix = matrix[~turning][:, ~turning]
     elif shape != (3 * n, 3 * n):
         size = f"{shape[0]} x {shape[1]}"
-        raise wrong(
+        raise file_error(
             path,
             f"{name} is {size}, but {n} grid points have {FREEDOMS * n} equations, or {3 * n} without rotations",
         )
@@ -103,25 +105,25 @@ def _displacements(path: Path, name: str, matrix: Any, numbers: np.ndarray) -> A
 
 def _grid(path: Path) -> tuple[np.ndarray, np.ndarray, dict[str, list[list[int]]]]:
     """Return grid point numbers, positions in the basic coordinate system, and elements as rows of these."""
-    bulk = package("pyyeti.nastran.bulk", "nastran", "reading bulk data of Nastran")
+    bulk = optional_module("pyyeti.nastran.bulk", "nastran", "reading bulk data of Nastran")
     what = "Nastran bulk data with GRID cards"
-    uset, _ = read_by(lambda: bulk.bulk2uset(str(path), encoding="latin_1"), path, what)
+    uset, _ = call_reader(lambda: bulk.bulk2uset(str(path), encoding="latin_1"), path, what)
     index, values = uset.index.to_numpy(), uset[["x", "y", "z"]].to_numpy(dtype=float)
     numbers = np.array([point for point, _ in index], dtype=np.int64)[::FREEDOMS]
     if len(index) != FREEDOMS * numbers.size or not np.isfinite(values).all():
-        raise wrong(path, "the grid points include scalar points or positions that are not finite")
+        raise file_error(path, "the grid points include scalar points or positions that are not finite")
     if not numbers.size:
-        raise wrong(path, "there are no GRID cards in this file")
+        raise file_error(path, "there are no GRID cards in this file")
     turned = (values[3::6] != np.eye(3)[0]).any(axis=1) | (values[4::6] != np.eye(3)[1]).any(axis=1)
     if turned.any():
-        raise wrong(
+        raise file_error(
             path, f"grid point {numbers[turned][0]} has a displacement coordinate system (CD), which is not supported"
         )
     order = np.argsort(numbers, kind="stable")
     rows = {int(name): row for row, name in enumerate(numbers[order])}
     cells: dict[str, list[list[int]]] = {}
     for card, kinds in CARDS.items():
-        read = read_by(
+        read = call_reader(
             lambda card=card: bulk.rdcards(str(path), card, return_var="list", no_data_return=[], encoding="latin_1"),
             path,
             what,

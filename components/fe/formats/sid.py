@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.result.files import whole
 from components.fe.formats.sid_tree import DIGITS, Block, Taylor, index_order, read_tree, taylor
-from components.fe.formats.text import doubt, number, wrong
+from components.fe.formats.text import file_error, file_warning, number
 from components.fe.reduction.interface import Interface
 from components.fe.reduction.reduced_body import ReducedBody
 
@@ -140,7 +140,7 @@ def _inner(path: str | Path, tree: Block) -> Block:
     parts = tree.named("part")
     modals = [modal for part in parts for modal in part.named("modal")]
     if len(modals) != 1:
-        raise wrong(path, f"a SID needs one `new modal` inside `part`, but this file has {len(modals)}")
+        raise file_error(path, f"a SID needs one `new modal` inside `part`, but this file has {len(modals)}")
     return modals[0]
 
 
@@ -151,9 +151,11 @@ def _modes(path: str | Path, modal: Block) -> tuple[float, int]:
     try:
         total, n = (number(head.settings[name][1]) for name in ("mass", "nelastq"))
     except (KeyError, ValueError):
-        raise wrong(path, "refmod needs the numbers mass and nelastq", head.line) from None
+        raise file_error(path, "refmod needs the numbers mass and nelastq", head.line) from None
     if not (total > 0 and 0 <= n == int(n)):
-        raise wrong(path, f"mass must be positive and nelastq an integer from 0, not {total:g} and {n:g}", head.line)
+        raise file_error(
+            path, f"mass must be positive and nelastq an integer from 0, not {total:g} and {n:g}", head.line
+        )
     return total, int(n)
 
 
@@ -161,14 +163,14 @@ def _parts(path: str | Path, block: Block, names: tuple[str, ...]) -> None:
     for name in names:
         if len(block.named(name)) != 1:
             where = f"{block.name} {block.value}".strip()
-            raise wrong(path, f"`{where}` has {len(block.named(name))} blocks `{name}` instead of one", block.line)
+            raise file_error(path, f"`{where}` has {len(block.named(name))} blocks `{name}` instead of one", block.line)
 
 
 def _matrix(path: str | Path, block: Block, order: tuple[int, ...], shape: tuple[int, int], n: int) -> Taylor:
     found = taylor(path, block, order)
     if found.constant.shape != shape:
         size, needed = ("{} x {}".format(*pair) for pair in (found.constant.shape, shape))
-        raise wrong(path, f"`{block.name}` is {size}, but {n} modes need {needed}", block.line)
+        raise file_error(path, f"`{block.name}` is {size}, but {n} modes need {needed}", block.line)
     if len(found.linear) != n:  # a constant matrix, nq = 0
         return Taylor(found.constant, np.zeros((n, *shape)))
     return found
@@ -201,7 +203,7 @@ def _moments(path: str | Path, given: dict[str, Taylor], M: np.ndarray) -> tuple
     elif not why and not _same(np.trace(B, axis1=2, axis2=3), M):
         why = "the trace of M1 of Oe differs from Me; Oe seems to include geometric stiffness, which is not supported"
     if why:
-        doubt(
+        file_warning(
             path,
             f'{why}. Inertia forces of second order in q are unknown and omitted, as with inertia="first_order"',
         )
@@ -233,7 +235,7 @@ def _orthonormal(path: str | Path, M: np.ndarray, K: np.ndarray) -> np.ndarray:
     try:
         return eigh(K, M)[1]
     except np.linalg.LinAlgError:
-        raise wrong(path, "Me is not positive definite") from None
+        raise file_error(path, "Me is not positive definite") from None
 
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
@@ -252,9 +254,11 @@ def _interface(
         if not _same(turn.constant, np.eye(3)):
             axes = turn.constant.T
             if not _same(axes @ turn.constant, np.eye(3)) or np.linalg.det(axes) < 0:
-                raise wrong(path, f"AP of node {node.value} is not a rotation", block.line)
+                raise file_error(path, f"AP of node {node.value} is not a rotation", block.line)
             if turn.linear.any() and not _same(_skew(psi) @ turn.constant, turn.linear):
-                raise wrong(path, f"M1 of AP of node {node.value} is not psi x AP; psi is in other axes", block.line)
+                raise file_error(
+                    path, f"M1 of AP of node {node.value} is not psi x AP; psi is in other axes", block.line
+                )
     name = node.value if node.value.isidentifier() else f"node_{node.value}"
     turns = bool(psi.any() or not phi.any())
     return Interface(name, length * place, phi @ T, psi @ T / length, turns, axes)

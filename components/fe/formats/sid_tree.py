@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from components.fe.formats.text import number, text_of, wrong
+from components.fe.formats.text import file_error, number, text_of
 
 BLOCKS = ("part", "modal", "refmod", "frame", "node")
 MATRICES = (
@@ -90,9 +90,11 @@ def read_tree(path: str | Path) -> Block:
             stack[-1].parts.append(Block(name, value, place))
             stack.append(stack[-1].parts[-1])
         else:
-            raise wrong(path, f"a SID block (part, new modal, frame, mdCM, ...) is expected, not `{text[:60]}`", place)
+            raise file_error(
+                path, f"a SID block (part, new modal, frame, mdCM, ...) is expected, not `{text[:60]}`", place
+            )
     if len(stack) > 1:
-        raise wrong(
+        raise file_error(
             path, f"the file is truncated: it ends inside `{stack[-1].name}`, which begins in line {stack[-1].line}"
         )
     return top
@@ -146,7 +148,7 @@ def taylor(path: str | Path, block: Block, order: tuple[int, ...]) -> Taylor:
     """
     rows, columns, n, structure = (_whole(path, block, name) for name in ("nrow", "ncol", "nq", "structure"))
     if rows * columns * (n + 1) > LARGEST:
-        raise wrong(
+        raise file_error(
             path, f"`{block.name}` is {rows} x {columns} with {n} modes, too large for a reduced body", block.line
         )
     constant, linear = np.zeros((rows, columns)), np.zeros((n, rows, columns))
@@ -166,10 +168,10 @@ def taylor(path: str | Path, block: Block, order: tuple[int, ...]) -> Taylor:
             else:
                 linear[index[order[2]], index[order[0]], index[order[1]]] = value
         except ValueError:
-            raise wrong(path, f"{name} is `{text[:60]}`, not a finite number", line) from None
+            raise file_error(path, f"{name} is `{text[:60]}`, not a finite number", line) from None
         except IndexError:
             size = f"{rows} x {columns} with {n} modes"
-            raise wrong(path, f"{name} is outside {block.name}, which is {size}", line) from None
+            raise file_error(path, f"{name} is outside {block.name}, which is {size}", line) from None
     if structure == SYMMETRIC:
         constant, linear = (np.where(m != 0, m, np.swapaxes(m, -1, -2)) for m in (constant, linear))
     return Taylor(constant, linear)
@@ -188,7 +190,7 @@ def index_order(path: str | Path, nodes: Sequence[Block]) -> tuple[int, ...]:
                 moved = taylor(path, origin, order).linear[:, :, 0].T
                 if moved.shape == shape.shape and np.allclose(moved, shape, atol=DIGITS * np.abs(shape).max()):
                     return order
-        raise wrong(
+        raise file_error(
             path, "m1 of `origin` differs from m0 of `phi`: the node would not move by its mode shapes", origin.line
         )
     return ORDERS[0]
@@ -203,12 +205,12 @@ def _end(path: str | Path, stack: list[Block], line: int, text: str) -> None:
     name = text.removeprefix("end").strip()
     if len(stack) == 1 or (name and name != stack[-1].name):
         expected = f"`end {stack[-1].name}`" if len(stack) > 1 else "a block"
-        raise wrong(path, f"{expected} is expected here, not `{text[:60]}`", line)
+        raise file_error(path, f"{expected} is expected here, not `{text[:60]}`", line)
     stack.pop()
 
 
 def _whole(path: str | Path, block: Block, name: str) -> int:
     line, text = block.settings.get(name, (block.line, ""))
     if not text.isdecimal():
-        raise wrong(path, f"`{block.name}` needs an integer {name}{f', not `{text[:60]}`' if text else ''}", line)
+        raise file_error(path, f"`{block.name}` needs an integer {name}{f', not `{text[:60]}`' if text else ''}", line)
     return int(text)

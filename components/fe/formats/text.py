@@ -19,13 +19,13 @@ LARGEST = 10**12  # largest number of a node or element; more than any FE progra
 FORTRAN = re.compile(r"(?<=[\d.])(?:[dD](?=[+-]?\d)|(?=[+-]\d))")
 
 
-def wrong(path: str | Path, why: str, line: int | None = None) -> DeclarationError:
+def file_error(path: str | Path, why: str, line: int | None = None) -> DeclarationError:
     """Return the error for a file, or for one of its lines (counted from 1)."""
     place = shown_name(path) if line is None else f"{shown_name(path)}, line {line}"
     return DeclarationError(f"{place}: {why}.")
 
 
-def doubt(path: str | Path, why: str) -> None:
+def file_warning(path: str | Path, why: str) -> None:
     """Warn about the content of a file."""
     warn(f"{shown_name(path)}: {why}.")
 
@@ -47,9 +47,9 @@ def text_of(path: str | Path, what: str) -> str:
     """
     text = read_text(path, what, "latin-1")
     if "\0" in text:
-        raise wrong(path, f"this is a binary file, not {what}")
+        raise file_error(path, f"this is a binary file, not {what}")
     if not text.strip():
-        raise wrong(path, f"the file is empty; {what} was expected")
+        raise file_error(path, f"the file is empty; {what} was expected")
     return text
 
 
@@ -79,9 +79,9 @@ def table(path: str | Path, what: str, row: str, comments: str | None = None) ->
     text = text_of(path, what)
     values = numbers_in(path, text, row, comments)
     if not values.size:
-        raise wrong(path, f"the file has no lines of {what}: {row}")
+        raise file_error(path, f"the file has no lines of {what}: {row}")
     if not text.endswith("\n"):
-        raise wrong(
+        raise file_error(
             path, f"the last line is incomplete; the file seems to be truncated: `{_shown(text.splitlines()[-1])}`"
         )
     return values
@@ -94,7 +94,7 @@ def numbers_in(path: str | Path, text: str, row: str, comments: str | None = Non
     if values is None:
         values = _loaded(FORTRAN.sub("e", text), comments)
     if values is None or (values.size and values.shape[1] != columns) or not np.isfinite(values).all():
-        raise _first_wrong(path, text, row, comments, above)
+        raise _first_error(path, text, row, comments, above)
     return values
 
 
@@ -102,7 +102,7 @@ def whole_numbers(path: str | Path, values: np.ndarray, what: str) -> np.ndarray
     """Return numbers of a file as integers; raise an error unless all are whole."""
     if not (values == np.rint(values)).all():
         bad = values[values != np.rint(values)].flat[0]
-        raise wrong(path, f"{what} must be integers, not {bad:g}")
+        raise file_error(path, f"{what} must be integers, not {bad:g}")
     return values.astype(np.int64)
 
 
@@ -124,14 +124,14 @@ def _loaded(text: str, comments: str | None) -> np.ndarray | None:
         return None
 
 
-def _first_wrong(path: str | Path, text: str, row: str, comments: str | None, above: int) -> DeclarationError:
+def _first_error(path: str | Path, text: str, row: str, comments: str | None, above: int) -> DeclarationError:
     columns = row.count(",") + 1
     for place, line in enumerate(text.splitlines(), above + 1):
         words = line.replace(",", " ").split()
         if not words or (comments and words[0].startswith(comments)):
             continue
         if len(words) != columns:
-            return wrong(path, f"a line must be {row}, not `{_shown(line)}`", place)
+            return file_error(path, f"a line must be {row}, not `{_shown(line)}`", place)
         for word in words:
             try:
                 number(word)
@@ -139,8 +139,8 @@ def _first_wrong(path: str | Path, text: str, row: str, comments: str | None, ab
             except ValueError:
                 good = False
             if not good:
-                return wrong(path, f"a line must be {row}, and `{_shown(word)}` is not a finite number", place)
-    return wrong(path, f"a line must be {row}")
+                return file_error(path, f"a line must be {row}, and `{_shown(word)}` is not a finite number", place)
+    return file_error(path, f"a line must be {row}")
 
 
 def _shown(text: str) -> str:

@@ -13,12 +13,12 @@ import numpy as np
 
 from acausal import DeclarationError
 from acausal.result import shown_name
-from components.fe.formats.text import wrong
+from components.fe.formats.text import file_error
 
 Read = TypeVar("Read")
 
 
-def installed(name: str, extra: str, what: str) -> None:
+def require_module(name: str, extra: str, what: str) -> None:
     """Raise an error unless a module is installed.
 
     Parameters
@@ -45,17 +45,17 @@ def installed(name: str, extra: str, what: str) -> None:
         )
 
 
-def package(name: str, extra: str, what: str) -> Any:
-    """Return a module of an optional package, or raise the error of `installed`.
+def optional_module(name: str, extra: str, what: str) -> Any:
+    """Return a module of an optional package, or raise the error of `require_module`.
 
     The print options of numpy are restored because importing pyyeti, and already finding its submodules, changes them.
     """
     with np.printoptions():
-        installed(name, extra, what)
+        require_module(name, extra, what)
         return import_module(name)
 
 
-def existing(path: str | Path, what: str) -> Path:
+def existing_file(path: str | Path, what: str) -> Path:
     """Return the path of a file with `~` expanded; raise DeclarationError if there is no such file."""
     found = Path(path).expanduser()
     if not found.is_file():
@@ -64,7 +64,7 @@ def existing(path: str | Path, what: str) -> Path:
     return found
 
 
-def read_by(read: Callable[[], Read], path: str | Path, what: str) -> Read:
+def call_reader(read: Callable[[], Read], path: str | Path, what: str) -> Read:
     """Call a reader of another package and report its failure as an error of the file.
 
     For invalid files such readers raise any exception or exit the process, and for truncated files some only warn.
@@ -91,4 +91,4 @@ def read_by(read: Callable[[], Read], path: str | Path, what: str) -> Read:
     except (Exception, SystemExit) as error:
         text = (str(error).strip().splitlines() or [""])[0].rstrip(". ")[:200]
         why = f"{type(error).__name__}: {text}" if text else type(error).__name__
-        raise wrong(path, f"this is not {what}, or is truncated ({why})") from None
+        raise file_error(path, f"this is not {what}, or is truncated ({why})") from None
