@@ -110,9 +110,7 @@ class Loops:
     # Cosine between constraints and directions of projection: below it the selection is unsuitable, because errors grow with
     # its reciprocal, 20.
     worn: float = 0.05
-    # Change of constraints by coordinates of one unit, relative to others, that determines their scale: a machine of 1e6 mm.
-    slight: float = 1e-7
-    # Number of random positions for it, and their distance from the guesses in nominal values, a usual rotation of joints.
+    # Random positions for the scales of coordinates: number, and distance from the guesses in nominal values, a usual rotation.
     looks: int = 16
     around: float = 1.0
     # `worn` in a large mechanism, relative to the best selection among n states; tolerance of singular values of large
