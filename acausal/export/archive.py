@@ -1,4 +1,4 @@
-"""The file of an exported model."""
+"""The archive of a Functional Mock-up Unit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from acausal.export.platforms import chosen
 from acausal.result import check_writable, shown_name
 from acausal.result.files import whole
 
-# The same model gives the same file; an archive knows no earlier time.
+# A fixed time makes files of equal models equal; it is the earliest time of the zip format.
 TIME = (1980, 1, 1, 0, 0, 0)
 READABLE = 0o644 << 16
 UNIX = 3
@@ -23,46 +23,46 @@ LICENSED = "The library and its sources; the model has its own author.\n\n"
 
 
 def source_names() -> tuple[str, ...]:
-    """Return the names of the C files that make the library."""
+    """Return the names of the C source files of the library."""
     return tuple(sorted(path.name for path in SOURCE.glob("*.c")))
 
 
 def check_fmu(path: str | Path, fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
-    """Check before any work is done whether a model can be exported like this; return the platform of each folder.
+    """Check the arguments of an export before the model is compiled; return the platform of each folder.
 
     Raises
     ------
     ExportError
-        With the reason why not.
+        If the name, the version or a platform is invalid.
     """
     check_writable(path)
     if not str(path).lower().endswith(".fmu"):
-        raise ExportError(f"cannot write {shown_name(path)}: importers want a name that ends in .fmu; append it.")
+        raise ExportError(f"cannot write {shown_name(path)}: importers need a name that ends in .fmu; append it.")
     return chosen(fmi_version, platforms)
 
 
 def write_fmu(
     path: str | Path, description: Description, model: bytes, fmi_version: int = 3, platforms: Sequence[str] = ("own",)
 ) -> None:
-    """Write an exported model, whole or not at all.
+    """Write an exported model atomically.
 
     Parameters
     ----------
     path : str or Path
         Name of the file, which ends in .fmu.
     description : Description
-        What importers see of the model.
+        The interface of the model.
     model : bytes
-        What the library reads of it.
+        The model file for the library.
     fmi_version : int
         2 or 3.
     platforms : sequence of str
-        For which the library is enclosed: names of platforms, "own" or "all".
+        Platforms of the included libraries: names, "own" or "all".
 
     Raises
     ------
     ExportError
-        If it cannot be written, or FMI does not allow what the description says.
+        If the file cannot be written, or the description violates FMI.
     """
     libraries = check_fmu(path, fmi_version, platforms)
     files = _contents(description, model, fmi_version, libraries)
@@ -70,7 +70,7 @@ def write_fmu(
 
 
 def write_archive(path: str | Path, files: Mapping[str, bytes]) -> None:
-    """Write an archive of files by their names, whole or not at all; of the same files it is the same."""
+    """Write an archive of files by their names atomically; equal files give equal archives."""
     with whole(path, "wb") as file, zipfile.ZipFile(file, "w") as archive:
         for name, content in files.items():
             entry = zipfile.ZipInfo(name, TIME)

@@ -1,4 +1,4 @@
-"""The start of an exported model: one square system for all its unknowns."""
+"""The initial system of an exported model: one square system for all its unknowns."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars, stacked
 
-DEPENDENT = 1e-15  # singular value of rows of length 1 that is rounding
+DEPENDENT = 1e-15  # singular value at round-off level, for rows of length 1
 
 
 @dataclass(frozen=True)
 class Beginning:
-    """Where an exported model starts, and the equations of that.
+    """Initial values of an exported model, and their equations.
 
     Attributes
     ----------
     at : Point
         Consistent values; the projection of closed loops moves.
     residuals : casadi.SX
-        As many as states and algebraic unknowns, in these, parameters, starts, time and constants.
+        Residuals for states and algebraic unknowns, in these, parameters, start values, time and constants.
     starts : dict of int to casadi.SX
-        States that start at a number that can be changed, and its symbol.
+        Symbols of the start values that can be changed, by state.
     vibration : float
-        Size of the largest eigenvalue that oscillates there, in 1/s.
+        Magnitude of the largest oscillatory eigenvalue at the start, in 1/s.
     releases : bool
-        Whether set-valued laws at rest have no force there, until they are decided.
+        Whether set-valued laws at rest have no force at the start, until an event decides them.
     """
 
     at: Point
@@ -49,7 +49,7 @@ class Beginning:
 
 
 def begin(problem: Problem, time: float, later: float, initial: str) -> Beginning:
-    """Start a model, and say by which equations.
+    """Initialise a model, and return the equations of its initial values.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     Raises
     ------
     ExportError
-        If it starts in a singular configuration: equations do not tell how it goes on.
+        If the model starts in a singular configuration, where equations do not determine the motion.
     """
     begun = start(problem, time, later, initial)
     at = begun.point
@@ -82,7 +82,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
 
 
 def _refuse_singular(problem: Problem, at: Point, residuals: ca.SX, starts: dict[int, ca.SX]) -> None:
-    """Refuse equations of an equilibrium of which some follow from others by rounding: an importer finds no solution then."""
+    """Raise an error if equations of an equilibrium are dependent up to round-off: an importer could not solve them."""
     r = problem.compiled.reduced
     unknowns = ca.vertcat(r.x, r.z)
     symbols = [unknowns, r.p, time_symbol.sx, r.constants, stacked(list(starts.values()))]
@@ -98,7 +98,7 @@ def _refuse_singular(problem: Problem, at: Point, residuals: ca.SX, starts: dict
 def _square(
     compiled: CompiledModel, rows: np.ndarray, known: np.ndarray, direct: dict[int, int], flag: float
 ) -> tuple[ca.SX, dict[int, ca.SX]]:
-    """Return the equations of an initial system, and the starts in them; `flag` is 1 where it is one, 0 in equilibrium."""
+    """Return the equations of an initial system and their start values; `flag` is 1, or 0 for an equilibrium."""
     r, nx = compiled.reduced, compiled.nx
     equations = ca.substitute(ca.vertcat(r.ode, r.alg, compiled.conditions), initial_flag.sx, flag)
     if r.projections.choice.numel():
@@ -126,5 +126,5 @@ def _square(
 
 
 def _is_number(condition: ca.SX, state: ca.SX) -> bool:
-    """Whether a condition says that a state is a number."""
+    """Return whether a condition sets a state to a number."""
     return [s.element_hash() for s in ca.symvar(condition)] == [state.element_hash()]

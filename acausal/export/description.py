@@ -1,4 +1,4 @@
-"""What the description of an exported model says, before it is written as FMI 2 or FMI 3."""
+"""The interface of an exported model, independent of the version of FMI."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ Initial = Literal["exact", "approx", "calculated"]
 
 @dataclass(frozen=True)
 class Variable:
-    """A scalar that importers see; several with one reference are aliases of one value.
+    """A scalar of the interface; variables with equal references are aliases of one value.
 
     Parameters
     ----------
     name : str
-        In the user's words: "beam.node_r_0[1,2]", "der(crank.phi)".
+        As in the model: "beam.node_r_0[1,2]", "der(crank.phi)".
     reference : int
-        Under which the library reads and writes the value.
+        Value reference.
     causality, variability, initial : str
-        As FMI defines them; `initial` None stands for the default of the other two.
+        As defined by FMI; `initial` None is the default for the other two.
     unit : str
-        "" where it is not known.
+        "" if unknown.
     start : float or None
-        Of what is set or solved for at the start.
+        Start value.
     description : str
         A sentence for users.
     nominal : float or None
-        Usual size.
+        Nominal value.
     minimum : float or None
         Smallest value.
     derivative_of : int or None
@@ -55,7 +55,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Description:
-    """A model as other tools see it; numbers of variables are references.
+    """The interface of a model; variables are given by their references.
 
     Parameters
     ----------
@@ -64,27 +64,27 @@ class Description:
     identifier : str
         Name of the libraries, an identifier in C.
     token : str
-        Tells this model from others: a GUID in braces.
+        Identifies the model: a GUID in braces.
     description : str
         A sentence for users.
     version : str
         Of acausal.
     variables : tuple of Variable
-        In the order in which they are written.
+        In the order of the file.
     states, rates : tuple of int
         Continuous states and their derivatives, in pairs.
     outputs, indicators : tuple of int
         Outputs and event indicators, in their order.
     dependencies : mapping
-        Of outputs, rates and indicators: on which states and inputs they depend, in ascending order.
+        States and inputs on which each output, rate and indicator depends, in ascending order.
     initial_unknowns : mapping
-        Of what is solved for at the start: on which inputs, parameters and exact starts it depends, in ascending order.
+        Inputs, parameters and exact start values on which each initial unknown depends, in ascending order.
     start_time, stop_time, tolerance, step_size : float or None
-        What the model proposes for a run.
+        The default experiment.
     completes : bool
-        Whether importers tell the end of each step that they keep: closed loops may pass a flat position.
+        Whether importers must report the end of each accepted step, because closed loops may pass a singular configuration.
     sources : tuple of str
-        C files that have to be compiled for other platforms; none if no sources are enclosed.
+        C files to compile for other platforms; empty if no sources are included.
     """
 
     name: str
@@ -107,7 +107,7 @@ class Description:
     sources: tuple[str, ...] = ()
 
 
-# What FMI allows as `initial`; the first is the default.
+# Values of `initial` that FMI allows; the first is the default.
 ANY: tuple[Initial | None, ...] = ("calculated", "exact", "approx")
 INITIAL: Mapping[tuple[Causality, Variability], tuple[Initial | None, ...]] = {
     ("independent", "continuous"): (None,),
@@ -124,21 +124,21 @@ INITIAL: Mapping[tuple[Causality, Variability], tuple[Initial | None, ...]] = {
     ("local", "discrete"): ANY,
     ("local", "continuous"): ANY,
 }
-GIVEN = ("independent", "parameter", "input")  # from outside
+GIVEN = ("independent", "parameter", "input")  # values set by the importer
 
 
 def initial_of(variable: Variable) -> Initial | None:
-    """Return how a variable gets its initial value, where need be by the default."""
+    """Return `initial` of a variable, or its default."""
     return variable.initial or INITIAL[variable.causality, variable.variability][0]
 
 
 def is_solved(variable: Variable) -> bool:
-    """Return whether the initial value comes out of the initialisation."""
+    """Return whether the initialisation computes the initial value."""
     return initial_of(variable) in ("approx", "calculated")
 
 
 def by_reference(description: Description) -> dict[int, tuple[Variable, ...]]:
-    """Return the variables of each reference, first the one through which the value is given."""
+    """Return the variables of each reference, first the one that has the start value."""
     found: dict[int, list[Variable]] = {}
     for variable in description.variables:
         found.setdefault(variable.reference, []).append(variable)
@@ -153,7 +153,7 @@ def _leading(alike: list[Variable]) -> tuple[Variable, ...]:
 
 
 def _merged(first: Variable, alike: list[Variable]) -> Variable:
-    """Add to a variable what only its aliases say: FMI asks one of them for it."""
+    """Complete a variable by the attributes of its aliases, because FMI requires them of one variable."""
     return replace(
         first,
         nominal=next((v.nominal for v in alike if v.nominal is not None), None),
@@ -164,7 +164,7 @@ def _merged(first: Variable, alike: list[Variable]) -> Variable:
 
 
 def initial_unknowns(description: Description, leading: Mapping[int, Variable]) -> Iterator[int]:
-    """Return the references that FMI wants listed as initial unknowns: outputs, states and rates that are solved for."""
+    """Return the references of the initial unknowns of FMI: outputs, states and rates that the initialisation computes."""
     for reference in sorted({*description.outputs, *description.states, *description.rates}):
         if is_solved(leading[reference]):
             yield reference

@@ -1,4 +1,4 @@
-"""Parts of a description that FMI 2 and FMI 3 write alike."""
+"""Common parts of the model descriptions of FMI 2 and FMI 3."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def attributes(**values: Value) -> dict[str, str]:
-    """Return attributes as text, without those that are None."""
+    """Return the attributes that are not None as text."""
     return {name: _text(value) for name, value in values.items() if value is not None}
 
 
@@ -31,7 +31,7 @@ def _text(value: str | float | Sequence[int]) -> str:
 
 
 def begin(description: Description, **more: Value) -> Element:
-    """Return the root of a description."""
+    """Return the root element of a description."""
     own = attributes(
         modelName=description.name,
         description=description.description or None,
@@ -42,7 +42,7 @@ def begin(description: Description, **more: Value) -> Element:
 
 
 def add_common(root: Element, description: Description) -> None:
-    """Add units, categories of the log and the proposed run."""
+    """Add units, log categories and the default experiment."""
     if units := dict.fromkeys(v.unit for v in description.variables if v.unit):
         definitions = SubElement(root, "UnitDefinitions")
         for unit in units:
@@ -62,6 +62,6 @@ def add_common(root: Element, description: Description) -> None:
 
 
 def finished(root: Element) -> bytes:
-    """Return a document as it is stored."""
+    """Return a document as bytes."""
     indent(root)
     return tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"

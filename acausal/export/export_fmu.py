@@ -59,17 +59,17 @@ def export_fmu(
     model : Component or CompiledModel
         The model.
     path : str or Path
-        File that is written, whole or not at all; its name ends in .fmu.
+        Name of the file, which is written atomically and must end in .fmu.
     fmi_version : 2 or 3
         Version of the Functional Mock-up Interface.
     parameters : mapping of str to value, optional
         Values by path, as of `simulate`.
     platforms : sequence of str
-        Names of platforms for which libraries are enclosed, "own" or "all".
+        Platforms of the included libraries: names, "own" or "all".
     free : sequence of str
-        Parameters that stay in the equations although they are 0.
+        Parameters that remain in the equations although they are 0.
     stop_time, tolerance, initial : optional
-        As of `simulate`: the default experiment, and how it starts. A stop time is 1 s where the model declares none either.
+        Default experiment and kind of initialisation, as of `simulate`. The stop time is 1 s if the model declares none.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def export_fmu(
     beginning = begin(problem, 0.0, min(breaks, default=span) / 2, task.initial)
     known = given(compiled, p, beginning)
     guards = watched(compiled, known)
-    # As a run finds them: an importer cannot go back where states turn out to be small.
+    # From a run, because an importer cannot repeat a run with other nominal values.
     nominal = sizes_of_run(compiled, p, replace(task, tolerance=max(tolerance, POLICY.sizes.looking)))
     table = Table(compiled, known, beginning, nominal, tolerance, guards)
     variables = table.variables()
@@ -100,7 +100,7 @@ def export_fmu(
 
 
 def _described(content: Content, table: Table, variables: tuple[Variable, ...], token: str) -> Description:
-    """What importers see of a model."""
+    """Return the interface of a model."""
     compiled = content.compiled
     name = type(compiled.tree).__name__
     solved = {v.reference for v in variables} - {v.reference for v in variables if not is_solved(v)}
@@ -136,7 +136,7 @@ def _freed(
     if isinstance(model, Component):
         compiled = compile(model, parameters, free=free)
     elif model.source is None:
-        raise ExportError("parameters can be left free where a model is compiled: give the model itself.")
+        raise ExportError("parameters are kept free during compilation: pass the model, not a compiled one.")
     else:
         source = model.source
         compiled = compile(source.model, {**(source.parameters or {}), **(parameters or {})}, free=free)
@@ -144,12 +144,12 @@ def _freed(
 
 
 def _token(content: bytes) -> str:
-    """What tells a model from others, made from its content."""
+    """Return the GUID of a model, a hash of its content."""
     return f"{{{uuid.UUID(bytes=hashlib.sha256(content).digest()[:16])}}}"
 
 
 def _expressions(content: Content, table: Table, references: Sequence[int]) -> dict[int, ca.SX]:
-    """What rates, variables and indicators are."""
+    """Return the expressions of rates, variables and indicators."""
     rates = dict(zip(table.rates, scalars(content.runtime.running[0]), strict=True))
     shown = {table.first_shown + k: e for k, e in enumerate(scalars(content.runtime.moving(stacked(table.shown))))}
     first = table.first_shown + len(table.shown)
@@ -161,7 +161,7 @@ def _expressions(content: Content, table: Table, references: Sequence[int]) -> d
 def _dependencies(
     content: Content, table: Table, outputs: Sequence[int], indicators: Sequence[int]
 ) -> dict[int, tuple[int, ...]]:
-    """On which states and inputs, and whether on the time, rates, outputs and indicators depend."""
+    """Return the states and inputs on which rates, outputs and indicators depend, and whether they depend on time."""
     r = content.problem.compiled.reduced
     inputs = [k for k, _ in content.given.inputs]
     knowns = ca.vertcat(time.sx, r.x, picked(content.given.symbols, inputs))
@@ -172,7 +172,7 @@ def _dependencies(
 
 
 def _initial(content: Content, table: Table, solved: set[int], outputs: Sequence[int]) -> dict[int, tuple[int, ...]]:
-    """On what those depend that are solved for at the start."""
+    """Return the dependencies of the initial unknowns."""
     r, own = content.problem.compiled.reduced, content.given
     settable = [k for k, role in enumerate(own.roles) if role is not Role.INNER]
     state_of = {place: state for state, place in own.starts.items()}

@@ -12,16 +12,16 @@ from acausal.export.rules import check
 
 
 def describe(description: Description) -> bytes:
-    """Return what modelDescription.xml holds.
+    """Return the content of modelDescription.xml.
 
     Raises
     ------
     ExportError
-        If FMI does not allow it.
+        If the description violates FMI.
     """
     check(description)
     written = list(_written(description))
-    index: dict[int, int] = {}  # of the variable through which a reference is given, counted from 1
+    index: dict[int, int] = {}  # by reference: index of its leading variable, counted from 1
     for number, (variable, leads) in enumerate(written, 1):
         if leads:
             index[variable.reference] = number
@@ -41,7 +41,7 @@ def describe(description: Description) -> bytes:
 
 
 def _written(description: Description) -> Iterator[tuple[Variable, bool]]:
-    """Return the variables, and whether they lead those of their reference: only one of these has a start."""
+    """Return the variables, and whether each is the leading one of its reference, which alone has a start value."""
     leading = {reference: alike[0] for reference, alike in by_reference(description).items()}
     for variable in description.variables:
         first = leading[variable.reference]
@@ -119,7 +119,7 @@ def _add_structure(
         rows = []
         for number in unknowns:
             reference = variables[number - 1].reference
-            # An alias of what is given at the start depends on that alone.
+            # An alias of a given start value depends only on that value.
             knowns = dependencies.get(reference, (reference,) if alone else None)
             rows.append((number, None if knowns is None else sorted(index[known] for known in knowns)))
         if rows:

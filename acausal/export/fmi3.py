@@ -1,4 +1,4 @@
-"""The description of a model in FMI 3, and how its sources are compiled."""
+"""The description of a model in FMI 3, and the build description of its sources."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from acausal.export.rules import check
 
 
 def describe(description: Description) -> bytes:
-    """Return what modelDescription.xml holds.
+    """Return the content of modelDescription.xml.
 
     Raises
     ------
     ExportError
-        If FMI does not allow it.
+        If the description violates FMI.
     """
     check(description)
     alike = by_reference(description)
@@ -32,7 +32,7 @@ def describe(description: Description) -> bytes:
 
 
 def describe_sources(description: Description) -> bytes:
-    """Return what buildDescription.xml holds, which says how the sources are compiled."""
+    """Return the content of buildDescription.xml, for compiling the sources."""
     root = Element("fmiBuildDescription", attributes(fmiVersion="3.0"))
     build = SubElement(root, "BuildConfiguration", attributes(modelIdentifier=description.identifier))
     files = SubElement(build, "SourceFileSet", attributes(language="C99"))
@@ -59,7 +59,7 @@ def _add_interfaces(root: Element, description: Description) -> None:
 
 
 def _add_variable(variables: Element, alike: Sequence[Variable]) -> None:
-    """Add all variables of a reference: one that other tools shall see as an output gives the name, the others are aliases."""
+    """Add the variables of a reference: an output, if there is one, gives the name, the others are aliases."""
     first = alike[0]
     shown = next((variable for variable in alike if variable.causality == "output"), first)
     element = SubElement(

@@ -1,4 +1,4 @@
-"""What an exported model is given: parameters, start values, inputs and their slopes."""
+"""Parameters, start values, inputs and slopes of inputs of an exported model."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from acausal.symbols import scalars, stacked
 
 
 class Role(IntEnum):
-    """What an entry is, and so when it can be set; the numbers are part of the file."""
+    """Kind of an entry, which determines when it can be set; the numbers are part of the file format."""
 
     TUNABLE = 0
     FIXED = 1
@@ -32,15 +32,15 @@ class Given:
     Attributes
     ----------
     symbols : casadi.SX
-        Parameters and inputs of the model, starts of states, slopes of inputs, and the time from which these count.
+        Parameters and inputs of the model, start values of states, slopes of inputs, and their reference time.
     values : array
-        What they are.
+        Values of the entries.
     roles : tuple of Role
-        What each is.
+        Kind of each entry.
     starts : dict of int to int
-        State -> its start.
+        Entry of the start value, by state.
     inputs : tuple of (int, int)
-        Each input and its slope.
+        Entries of each input and its slope.
     """
 
     symbols: ca.SX
@@ -50,7 +50,7 @@ class Given:
     inputs: tuple[tuple[int, int], ...]
 
     def sloped(self, expression: ca.SX) -> ca.SX:
-        """Return an expression in which inputs vary with time by their slopes."""
+        """Return an expression with inputs extrapolated linearly in time by their slopes."""
         if not self.inputs:
             return expression
         entries = scalars(self.symbols)
@@ -60,16 +60,16 @@ class Given:
 
 
 def given(compiled: CompiledModel, p: np.ndarray, beginning: Beginning) -> Given:
-    """Return what an exported model is given.
+    """Return the entries of the vector of parameters of an exported model.
 
     Parameters
     ----------
     compiled : CompiledModel
         The model.
     p : array
-        Its parameters.
+        Values of its free parameters.
     beginning : Beginning
-        Where it starts.
+        Its initial values and their equations.
     """
     r, flat = compiled.reduced, compiled.reduced.flat
     own, known = scalars(r.p), inputs_of(compiled.tree)
@@ -102,7 +102,7 @@ def given(compiled: CompiledModel, p: np.ndarray, beginning: Beginning) -> Given
 
 
 def _fixed(compiled: CompiledModel) -> set[int]:
-    """Parameters on which the start hangs beside the equations, or the lengths of closed loops."""
+    """Return the parameters on which initial conditions, or the lengths of closed loops, depend."""
     r = compiled.reduced
     discretes = [start for _, start in r.flat.discontinuities.discretes]
     needed = [compiled.conditions, r.running.constraints, r.resolve(stacked(discretes))]

@@ -1,4 +1,4 @@
-"""What an exported model refuses: parameters beyond their limits, and what its components require."""
+"""Limits of the parameters of an exported model, and requirements of its components."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from acausal.symbols import dense, scalars, vec
 
 
 class Kind(IntEnum):
-    """What a limit is, and so when it is looked at; the numbers are part of the file."""
+    """Kind of a limit, which determines when it is checked; the numbers are part of the file format."""
 
     LIMIT = 0
     REQUIREMENT = 1
@@ -24,20 +24,20 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True)
 class Limit:
-    """A value that has to be at least as great as another one.
+    """A lower limit of a scalar.
 
     Attributes
     ----------
     value : casadi.SX
-        A scalar.
+        The scalar.
     least : float
-        The other one.
+        The limit.
     strict : bool
-        Whether it has to be greater than that.
+        Whether the scalar must be greater than the limit.
     kind : Kind
         A limit of a parameter, a requirement on parameters, or one on variables at the start.
     text : str
-        The name of the parameter, or what is wrong otherwise.
+        Name of the parameter, or message of the requirement.
     """
 
     value: ca.SX
@@ -48,9 +48,9 @@ class Limit:
 
 
 def limits(compiled: CompiledModel) -> list[Limit]:
-    """Return all that can be broken, in the order in which it is looked at.
+    """Return all limits in the order of their checks.
 
-    What follows other parameters comes after the requirements: they know the cause, such as a wrong diameter.
+    Limits of bound parameters follow the requirements, which name the cause, such as a wrong diameter.
     """
     own, required = compiled.reduced.flat.parameters, compiled.requirements
     free, bound = list[Limit](), list[Limit]()
@@ -66,7 +66,7 @@ def limits(compiled: CompiledModel) -> list[Limit]:
 
 
 def _required(stated: list[Stated], kind: Kind) -> Iterator[Limit]:
-    """Yield what components require, but for functions, which are no expressions."""
+    """Yield the requirements of components that are expressions, not Python functions."""
     for requirement, origin in stated:
         condition = requirement.subject
         if isinstance(condition, Condition) and not requirement.warning:

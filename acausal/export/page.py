@@ -1,4 +1,4 @@
-"""The page that an exported model brings along: what is inside."""
+"""The documentation page of an exported model."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ def page(description: Description, fmi_version: int, platforms: Sequence[str]) -
     Parameters
     ----------
     description : Description
-        Of the model.
+        Interface of the model.
     fmi_version : int
         2 or 3.
     platforms : sequence of str
-        Folders of the enclosed libraries.
+        Folders of the included libraries.
     """
 
     def names(causality: str) -> str:

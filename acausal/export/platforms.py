@@ -1,4 +1,4 @@
-"""For which platforms an exported model holds the library, and where the standard wants it."""
+"""Platforms of the libraries in an exported model, and their folders according to FMI."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from acausal.errors import ExportError
 from acausal.nearest import most_similar
 from acausal.result import shown_name
 
-# FMI 2 knows one folder for both processors of macOS: where both are wanted, x86-64 has it.
+# FMI 2 has one folder for both processors of macOS: x86-64 takes precedence.
 FOLDERS = {
     2: {
         "linux-x86_64": "linux64",
@@ -31,7 +31,7 @@ BUILD_ALL = "`python -m pip install ziglang`, then `python -m acausal.core.build
 
 
 def chosen(fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
-    """Return the platform whose library goes into each folder.
+    """Return the platform of the library in each folder.
 
     Parameters
     ----------
@@ -43,16 +43,15 @@ def chosen(fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
     Raises
     ------
     ExportError
-        If there is no such version or platform, or a library, this platform's own included, that is not installed or is of
-        other sources.
+        If a version or platform is unknown, or a library, including that of this platform, is missing or outdated.
     """
     if fmi_version not in FOLDERS:
-        raise ExportError(f"there is no version {fmi_version!r} of FMI to export to: give 2 or 3.")
+        raise ExportError(f"fmi_version must be 2 or 3, not {fmi_version!r}.")
     folders = FOLDERS[fmi_version]
     asked = [platforms] if isinstance(platforms, str) else platforms
     wanted = {name for given in asked for name in _meant(given, list(folders))}
     if not wanted:
-        raise ExportError(f"no platform is given: name own, all, or some of {', '.join(folders)}.")
+        raise ExportError(f"platforms is empty: name own, all, or some of {', '.join(folders)}.")
     found: dict[str, str] = {}
     for name, folder in folders.items():
         if name in wanted:
@@ -61,7 +60,7 @@ def chosen(fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
         mend = MEND if missing == [own_platform()] else BUILD_ALL
         raise ExportError(f"the core is not installed for {', '.join(missing)}: {mend}.")
     if why := why_not(runs=False):
-        raise ExportError(f"what is exported is made by the core of this platform, which is missing: {why}.")
+        raise ExportError(f"the export needs the core for this platform, which is missing: {why}.")
     return found
 
 
@@ -82,5 +81,5 @@ def _meant(given: str, known: list[str]) -> list[str]:
 
 def _is_installed(name: str) -> bool:
     path = file_of(name)
-    # What cannot be loaded here is asked for its sources by reading.
+    # A library of another platform cannot be loaded: read the hash of its sources from the file.
     return path.is_file() and version().encode() in path.read_bytes()

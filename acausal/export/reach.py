@@ -1,4 +1,4 @@
-"""What unknowns depend on, through the equations that determine them."""
+"""Structural dependencies of unknowns, through the equations that determine them."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from acausal.symbols import scalars
 
 
 class Reach:
-    """Dependence of unknowns and of expressions in them on what is given.
+    """Structural dependencies of unknowns, and of expressions in them, on given quantities.
 
     Parameters
     ----------
     equations, unknowns : casadi.SX
-        As many residuals as unknowns.
+        Residuals and unknowns of a square system.
     given : casadi.SX
-        What they depend on.
+        Given quantities.
     """
 
     def __init__(self, equations: ca.SX, unknowns: ca.SX, given: ca.SX) -> None:
@@ -37,7 +37,7 @@ class Reach:
         self._sets = _gathered([rows[equation_of[k]] for k in range(n)], [own[equation_of[k]] for k in range(n)])
 
     def __call__(self, expression: ca.SX) -> tuple[int, ...]:
-        """Return the places of all that an expression depends on, ascending."""
+        """Return the indices of the given quantities on which an expression depends, in ascending order."""
         bits = 0
         for symbol in ca.symvar(expression):
             key = symbol.element_hash()
@@ -53,7 +53,7 @@ def _entries(equations: ca.SX, by: ca.SX) -> Iterable[tuple[int, int]]:
 
 
 def _gathered(needs: list[list[int]], own: list[int]) -> list[int]:
-    """Sets of each node and of all that it needs, as bits."""
+    """Return the union of the sets, as bits, of each node and of all its direct and indirect predecessors."""
     n = len(needs)
     if not n:
         return []
@@ -72,7 +72,7 @@ def _gathered(needs: list[list[int]], own: list[int]) -> list[int]:
 
 
 def _leaves_first(after: list[set[int]]) -> Iterable[int]:
-    """Order nodes so that each stands behind those that it needs."""
+    """Return the nodes in topological order, predecessors first."""
     users: list[list[int]] = [[] for _ in after]
     waits = [len(k) for k in after]
     for node, others in enumerate(after):

@@ -1,4 +1,4 @@
-"""What FMI demands of a description, checked before anything is written."""
+"""Rules of FMI for a description, checked before a file is written."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ MOST = 2**32  # references have 32 bits
 
 
 def check(description: Description) -> None:
-    """Refuse what no file of FMI may say.
+    """Check a description.
 
     Raises
     ------
     ExportError
-        With the first thing that is wrong.
+        If the description violates a rule; the message has the first violation.
     """
     for problem in _problems(description):
         raise ExportError(f"cannot export {description.name}: {problem}.")
 
 
 def are_structured(names: Iterator[str]) -> bool:
-    """Return whether all names keep to what FMI calls structured; letters beyond ASCII do not."""
+    """Return whether all names follow the structured naming convention of FMI, which excludes non-ASCII letters."""
     return all(_STRUCTURED.fullmatch(name) for name in names)
 
 
 def _problems(description: Description) -> Iterator[str]:
     if not _IDENTIFIER.fullmatch(description.identifier):
-        yield f"`{description.identifier}` is no identifier in C"
+        yield f"`{description.identifier}` is not an identifier in C"
     for what in ("start_time", "stop_time", "tolerance", "step_size"):
         if not _finite(value := getattr(description, what)):
             yield f"{what} is {value}; give a finite number"
@@ -53,7 +53,7 @@ def _problems(description: Description) -> Iterator[str]:
         names.add(variable.name)
         yield from _of_variable(variable)
     if sum(variable.causality == "independent" for variable in description.variables) != 1:
-        yield "exactly one variable has to be the independent one"
+        yield "exactly one variable must be the independent one"
     yield from _of_structure(description)
 
 
@@ -66,7 +66,7 @@ def _of_variable(variable: Variable) -> Iterator[str]:
     if not _finite(variable.start):
         yield f"{name} starts at {variable.start}; give it a finite value"
     if not _finite(variable.minimum):
-        yield f"the least value of {name} is {variable.minimum}; give it a finite one or none"
+        yield f"the minimum of {name} is {variable.minimum}; give it a finite one or none"
     if variable.nominal is not None and not (math.isfinite(variable.nominal) and variable.nominal > 0):
         yield f"the nominal value of {name} is {variable.nominal}; give it a positive, finite one"
     if not 0 <= variable.reference < MOST:
@@ -96,19 +96,19 @@ def _of_structure(description: Description) -> Iterator[str]:
         yield "states and derivatives are not in pairs"
     for reference in (*states, *rates, *description.indicators):
         if leading[reference].causality in GIVEN or leading[reference].variability != "continuous":
-            yield f"`{leading[reference].name}` is a state, a derivative or an indicator and not continuous"
+            yield f"`{leading[reference].name}` is a state, a derivative or an indicator, but not continuous"
     if jumps := [v.name for v in description.variables if v.reinit and v.reference not in states]:
-        yield f"`{jumps[0]}` is no state, yet events change it"
+        yield f"`{jumps[0]}` is not a state, but events change it"
     outputs = {v.reference for v in description.variables if v.causality == "output"}
     if sorted(description.outputs) != sorted(outputs):
-        yield "the outputs are not those that are listed"
+        yield "the outputs differ from the listed ones"
     yield from _of_initial_unknowns(description, leading)
 
 
 def _of_aliases(first: Variable, others: tuple[Variable, ...]) -> Iterator[str]:
     for other in others:
         taken = first.causality in GIVEN and other.causality != "local"
-        # Importers count aliases of time as further independent variables.
+        # Importers treat aliases of time as further independent variables.
         taken |= other.causality in GIVEN or first.causality == "independent"
         varies = (other.causality, first.variability) not in INITIAL
         if taken or varies or (first.variability == "constant") != (other.variability == "constant"):
@@ -121,4 +121,4 @@ def _of_aliases(first: Variable, others: tuple[Variable, ...]) -> Iterator[str]:
 def _of_initial_unknowns(description: Description, leading: Mapping[int, Variable]) -> Iterator[str]:
     listed = description.initial_unknowns.keys()
     for reference in sorted(listed ^ set(initial_unknowns(description, leading))):
-        yield f"`{leading[reference].name}` is {'no' if reference in listed else 'an unlisted'} initial unknown"
+        yield f"`{leading[reference].name}` is {'not an' if reference in listed else 'an unlisted'} initial unknown"

@@ -1,4 +1,4 @@
-"""The variables of an exported model by value references."""
+"""The variables of an exported model by value reference."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from acausal.language.functions import time
 from acausal.result.lookup import find, names
 from acausal.symbols import dense, scalars, stacked
 
-# Name, value but for the tolerance, as in the library, and description.
+# Name, default (of the tolerance: that of the model), as in the library, and description.
 SETTINGS = (
-    ("solver.tolerance", None, "relative tolerance of the method inside, in Co-Simulation"),
+    ("solver.tolerance", None, "relative tolerance of Co-Simulation"),
     (
         "solver.damping",
         0.0,
-        "1 where the method inside damps vibrations that coordinates do not show, 0 where it follows them",
+        "1: Co-Simulation damps vibrations that are invisible in the coordinates; 0: it resolves them",
     ),
-    ("solver.most_steps", 1e6, "most steps of the method inside between two communication points"),
+    ("solver.most_steps", 1e6, "largest number of steps of Co-Simulation between two communication points"),
 )
 TIME = 0  # its reference
 
 
 @dataclass(frozen=True)
 class Seen:
-    """A scalar that importers see: its name, unit and description, its expression, and whether it is an output."""
+    """A scalar of the interface: name, unit, description, expression, and whether it is an output."""
 
     name: str
     unit: str
@@ -44,27 +44,27 @@ class Seen:
 
 @dataclass
 class Table:
-    """Variables, and where their values stand.
+    """Variables and their value references.
 
     Parameters
     ----------
     compiled : CompiledModel
         The model.
     given : Given
-        What it is given.
+        Its parameters, start values and inputs.
     beginning : Beginning
-        Where it starts.
+        Its initial values and their equations.
     nominal : array
-        Sizes of states and algebraic unknowns.
+        Nominal values of states and algebraic unknowns.
     tolerance : float
-        Of the method inside.
+        Tolerance of Co-Simulation.
     watched : list of int
-        Guards that are event indicators.
+        Conditions that are event indicators.
 
     Attributes
     ----------
     shown : list of casadi.SX
-        What the library evaluates for importers.
+        Expressions that the library evaluates for the importer.
     """
 
     compiled: CompiledModel
@@ -87,12 +87,12 @@ class Table:
 
     @property
     def parameters(self) -> int:
-        """First reference of what is given."""
+        """First reference of parameters, start values and inputs."""
         return 1 + 2 * self.compiled.nx
 
     @property
     def first_shown(self) -> int:
-        """First reference of what is shown."""
+        """First reference of the evaluated variables."""
         return self.parameters + len(self.given.roles)
 
     def variables(self) -> tuple[Variable, ...]:
@@ -115,7 +115,7 @@ class Table:
 
     def _of_given(self, seen: list[Seen]) -> Iterator[Variable]:
         own = self.compiled.reduced.flat.parameters
-        # What a parameter is given to has the same symbol; its own declaration is that of its name.
+        # Parameters bound to another one share its symbol; the declaration is that of the symbol's name.
         declared = {(s.name, s.expression.element_hash()): s for s in seen if s.expression.is_symbolic()}
         kinds: dict[Role, tuple[Causality, Variability]] = {
             Role.TUNABLE: ("parameter", "tunable"),
@@ -139,7 +139,7 @@ class Table:
         named = {(s.name, s.expression.element_hash()) for s in seen if not s.output}
         jumping = self._jumping()
         for k, (symbol, name) in enumerate(zip(scalars(r.x), r.states, strict=True)):
-            # In closed loops what is integrated is projected: the coordinate itself is shown under its own name.
+            # In closed loops the integrated state is projected: the projected coordinate has the name in the model.
             own = name if name not in known or (name, symbol.element_hash()) in named else f"integrated.{name}"
             about = known.get(name)
             unit, text = (about.unit, about.description) if about else ("", "")
@@ -156,7 +156,7 @@ class Table:
             )
 
     def _jumping(self) -> set[int]:
-        """States that an event may change; in closed loops all of these follow."""
+        """States that an event may change; in closed loops, all states of the loops."""
         guards = self.compiled.guards
         places = [to for k, g in enumerate(guards.guards) if g.jumps for to in guards.jump(k)[1]]
         direct = {place for is_state, place in places if is_state}
@@ -192,7 +192,7 @@ class Table:
             )
 
     def _still(self, one: Seen) -> Variability:
-        """Variability of what changes at events alone."""
+        """Return the variability of variables that change only at events."""
         roles = {s.element_hash(): r for s, r in zip(scalars(self.given.symbols), self.given.roles, strict=True)}
         found = {roles.get(s.element_hash(), Role.INPUT) for s in ca.symvar(one.expression)}
         if one.output or Role.INPUT in found:
@@ -201,7 +201,7 @@ class Table:
 
 
 def _seen(compiled: CompiledModel) -> Iterator[Seen]:
-    """All scalars of a model by name, expressed in states, algebraic unknowns, parameters, time and constants."""
+    """Return all scalars of a model by name, as expressions of states, algebraic unknowns, parameters, time and constants."""
     tree, found = compiled.tree, list[Seen]()
     owners = {component._path: component for component in walk(tree)}
     for path in names(tree):
@@ -219,5 +219,5 @@ def _seen(compiled: CompiledModel) -> Iterator[Seen]:
 
 
 def _names_in_columns(entries: list[tuple[tuple[int, ...], str, str]], shape: tuple[int, ...]) -> list[str]:
-    """Names of the entries in the order of a column, the first index running fastest."""
+    """Return the names of the entries in column-major order."""
     return [name for _, name, _ in sorted(entries, key=lambda entry: entry[0][::-1])] if shape else [entries[0][1]]

@@ -42,7 +42,7 @@ def loops_of(
         Residual of a closure -> row of the flow that works on it.
     rates : set of int
         Hashes of the unknowns without a derivative, or whose derivative an equation states; an equation of a part that
-        contains one is no constraint.
+        contains one is not a constraint.
     """
     place = {r: n for n, r in enumerate(rows)}
     entries = scalars(residuals)

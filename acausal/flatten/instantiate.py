@@ -211,7 +211,7 @@ def unknown_name(name: str, known: list[str], kind: str = "") -> str:
 
 
 def not_settable(name: str, root: Component, known: list[str]) -> str:
-    """Return the message for a name that is no parameter."""
+    """Return the message for a name that is not a parameter."""
     for component in walk(root):
         for own, declared in component.fields.items():
             if isinstance(declared, f.Variable) and name == join(component._path, own):

@@ -35,7 +35,7 @@ class LinearValues:
     Parameters
     ----------
     unknowns, others, residuals : casadi.SX
-        Columns; `others` are parameters, time and all other symbols that are no unknowns.
+        Columns; `others` are parameters, time and all other symbols that are not unknowns.
     """
 
     def __init__(self, unknowns: ca.SX, others: ca.SX, residuals: ca.SX) -> None:

@@ -40,7 +40,7 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str =
     Raises
     ------
     DeclarationError
-        If the value is no finite number, or an array of another shape.
+        If the value is not a finite number, or an array of another shape.
     """
     if type(value) is float and not shape and -LARGEST <= value <= LARGEST:
         return np.array(value)
@@ -101,6 +101,6 @@ def _has_no_number(value: Any) -> bool:
 
 
 def _is_listed(value: Any) -> bool:
-    """Return whether a value has entries that may be no numbers."""
+    """Return whether a value may have entries that are not numbers."""
     listed = isinstance(value, np.ndarray) and value.dtype == object and value.ndim > 0
     return isinstance(value, list | tuple) or listed

@@ -30,7 +30,7 @@ def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> 
     Raises
     ------
     DeclarationError
-        If this is no dict of connectors, or a name is invalid for a port.
+        If the result is not a dict of connectors, or a name is invalid for a port.
     """
     place = Origin(bound._path, type(bound).__name__, declared.where, name)
     if not isinstance(made, Mapping):
@@ -72,7 +72,7 @@ def _wrong_name(bound: Component, port: Any) -> str:
 
 
 def invalid_part(value: Any) -> str:
-    """Return the words for a value that is no part."""
+    """Describe a value that is not a part, for messages."""
     if isinstance(value, type):
         return f"the class {value.__name__}: write {value.__name__}(...)"
     if isinstance(value, Component) and value._is_bound:

@@ -29,7 +29,7 @@ from acausal.language.soft import Soft
 from acausal.symbols import scalars, stacked, vec
 
 FEWEST = 4  # equal components for which a function pays
-ENGINE = {*vars(Component), *vars(Connector)}  # attributes that are no field values
+ENGINE = {*vars(Component), *vars(Connector)}  # attributes that are not field values
 Stated = tuple[Any, Origin]
 Run = Callable[[Component], Iterable[Stated]]
 _Entries = dict[int, tuple[int, ca.SX]]  # hash -> (position, entry)

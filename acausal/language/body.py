@@ -39,7 +39,7 @@ def read_body(cls: Any) -> None:
             plain = {name: v for name, v in plain.items() if name not in vars(base)["_own_fields"]}
         else:
             plain.update(vars(base))
-    # Values of a base class that is no component count as values of this class body.
+    # Values of a base class that is not a component count as values of this class body.
     body = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
     refuse_names(cls, vars(cls))
     own: dict[str, f.Field] = {}

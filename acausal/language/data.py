@@ -64,7 +64,7 @@ def expected(cls: type, optional: bool) -> str:
 
 
 def fits(value: Any, cls: type) -> bool:
-    """Return whether a value is of a class; True and False are no numbers, and an int is a valid float."""
+    """Return whether a value is of a class; True and False are not numbers, and an int is a valid float."""
     if cls in (int, float):
         kinds = (int, np.integer) if cls is int else (int, float, np.integer, np.floating)
         return isinstance(value, kinds) and not isinstance(value, bool)

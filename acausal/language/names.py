@@ -15,7 +15,7 @@ from acausal.language.source_code import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.value_checks import shown
 
-PLAIN = ("ends", "start_words", "without_soft")  # reserved attributes that are no methods
+PLAIN = ("ends", "start_words", "without_soft")  # reserved attributes that are not methods
 EXAMPLES = {
     "connections": "yield connect(self.a, self.b)",
     "equations": "yield self.x == ...",

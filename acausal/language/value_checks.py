@@ -48,7 +48,7 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
 
 
 def nearest_field(cls: Any, name: str) -> str:
-    """Return the remedy for a name that is no field."""
+    """Return the remedy for a name that is not a field."""
     near = most_similar(name, cls.fields) or next(iter(_described(cls, name)), "")
     return f"did you mean `{near}`?" if near else f"its fields are {', '.join(cls.fields)}."
 

@@ -1,7 +1,7 @@
-"""Every threshold of the numerical work in one record, each with the theory, test or scene that fixed it.
+"""All numerical thresholds in one record, each with the theory, test or scene that determines it.
 
-All are relative: to a tolerance, to the nominal value of an unknown, to the length of the run, or they are counts; those of
-studies that limit how long something is repeated are seconds.
+They are relative to a tolerance, to the nominal value of an unknown or to the length of the run, or they are counts; time
+limits of studies are in seconds.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
 @dataclass(frozen=True)
 class Policy:
-    """Thresholds, by what they decide."""
+    """Thresholds by subject."""
 
     elimination: Elimination
     newton: Newton

@@ -1,4 +1,4 @@
-"""Thresholds of the search for an accuracy, and of studies."""
+"""Thresholds of the accuracy control and of studies."""
 
 from __future__ import annotations
 
@@ -7,49 +7,49 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Defaults:
-    """What a simulation takes that is told nothing else, and how much it may take."""
+    """Defaults and limits of a simulation."""
 
-    # That of Modelica tools; docs/accuracy.md tells the errors of the scenes.
+    # As in Modelica tools; docs/accuracy.md has the errors of the scenes.
     tolerance: float = 1e-6
-    # A picture shows no more points.
+    # Resolution of a plot.
     intervals: int = 400
-    # No tolerance is smaller: a few rounding errors of numbers.
+    # Smallest tolerance: a few units of round-off.
     rounding: float = 1e-15
-    # Most numbers that a result may hold: 8 GB.
+    # Numbers in a result: 8 GB.
     numbers: float = 1e9
 
 
 @dataclass(frozen=True)
 class Accuracy:
-    """Search for a tolerance, an order, a method and numbers of elements."""
+    """Choice of tolerance, order, method and numbers of elements."""
 
-    # Tolerances tried first, as fractions of the accuracy; the loosest and the smallest.
+    # First tolerance, relative to the accuracy; the largest and the smallest.
     first: float = 1e-2
     loosest: float = 1e-3
     smallest: float = 1e-12
     # Elements of a beam.
     fewest: int = 2
     most: int = 128
-    # A run with a smaller tolerance is better only if it takes more work: at the limit of stability it does not.
+    # Increase of the work with a smaller tolerance: at the stability limit the work is constant, and so is the error.
     more: float = 1.2
     tenths: int = 3
-    # A step of the one-step method is worth several; growth of the work by a tenth of the tolerance; runs that it takes
-    # to begin again with another method.
+    # Work of a step of the one-step method in steps of IDAS; growth of the work with a tenth of the tolerance; number of runs
+    # worth a restart with another method.
     one_step: int = 10
     growth: int = 3
     anew: int = 3
-    # Failures after which the search ends, and an error that fell by less than that did not fall.
+    # Failures that end the search; ratio of errors above which an error has not decreased.
     failures: int = 3
     stuck: float = 0.8
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Error of a run from finer ones."""
+    """Estimate of the error of a run from finer runs."""
 
-    # An output that moves by no more than this fraction of its size or of 1 is at rest.
+    # Range of an output at rest, relative to its magnitude or to 1.
     rounding: float = 1e-13
-    # The error falls at least with the power 2/3 of the tolerance, that of order 2, or with the order 2 of the elements.
+    # Convergence: at least the power 2/3 of the tolerance, as for methods of order 2, or the order 2 of the elements.
     by_tolerance: float = 2 / 3
     order: float = 2.0
     highest: float = 4.0
@@ -57,32 +57,32 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Study:
-    """Error against time, and what effects change and cost."""
+    """Error against time, and changes and costs of effects."""
 
-    # Times the range of an output: beyond it, a solution has nothing to do with the reference.
+    # Error of a diverged solution, relative to the range of the output.
     runaway: float = 10.0
-    # Seconds after which the alarm repeats, in case it came where nothing can be interrupted.
+    # Seconds until the alarm repeats, in case the first one came during an uninterruptible call.
     again: float = 1.0
-    # Seconds after which a run is not repeated: long runs are measured well enough. Runs that are repeated fill the
-    # lesser time, because the times of short ones scatter most.
+    # Seconds of a run that is not repeated, because long runs are measured accurately. Repeated runs fill the shorter time,
+    # because the times of short runs scatter most.
     enough: float = 3.0
     little: float = 0.2
-    # Refinements that are tried, and the least tolerance of a reference.
+    # Refinements of a reference, and its smallest tolerance.
     rounds: int = 6
     least: float = 1e-12
-    # Errors of runs are rarely more tolerances than this; docs/methods.md has those of the scenes.
+    # Largest usual error of a run in tolerances; docs/methods.md has the errors of the scenes.
     most: float = 100.0
-    # Ratio of the tolerance of a reference to the next, and of a run's to the one that tells its error.
+    # Ratio of successive tolerances of a reference, and of the tolerances of a run and of the one that estimates its error.
     tighter: float = 10.0
-    # The finest of a series is compared with the one before it, whose error is larger: that of a method of order 2 goes
-    # with the power 2/3 of the tolerance, that of elements at least with the square of their size.
+    # Error of the finest run of a series, relative to its difference from the previous one: proportional to the power 2/3 of
+    # the tolerance for methods of order 2, and at least to the square of the size of elements.
     tolerance_power: float = 2 / 3
     elements_share: float = 1 / 3
-    # An effect that changes less than this part of the accuracy takes part in no pair, unless it saves time; nor does one
-    # that changes more than this part of a range: what is left without it is another scene.
+    # Change by an effect, relative to the accuracy, below which it is in no pair unless it saves time; and relative to a range,
+    # above which it is in no pair, because the scene without it is another one.
     matters: float = 0.1
     other: float = 0.4
-    # Interactions below this part of the accuracy are not worth a line.
+    # Smallest interaction that is printed, relative to the accuracy.
     worth: float = 0.1
-    # Ratio of solve times that cannot be distinguished from 1: medians of a few runs scatter that much.
+    # Scatter of the ratio of solve times: medians of a few runs.
     noise: float = 0.1

@@ -1,4 +1,4 @@
-"""Thresholds of what is checked after a run: promises, validity, points that meet."""
+"""Thresholds of the checks after a run: separation of points, smoothness, validity, causes of failures."""
 
 from __future__ import annotations
 
@@ -7,23 +7,22 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Meeting:
-    """Points between which a force acts, and that meet."""
+    """Separation of points between which a force acts."""
 
-    # Nearer than this fraction of their greatest distance points meet; what acts there less than so much of its greatest
-    # is 0.
+    # Distance of coincident points, relative to their largest distance; force that counts as 0, relative to its largest value.
     near: float = 1e-6
     nothing: float = 1e-4
-    # Points may move so much faster between two rows than at them.
+    # Speed between two rows, relative to that at the rows.
     reach: float = 3.0
-    # The same where a run was given up: when it was is known to some digits only.
+    # The same after a failed run, whose time of failure is known to few digits.
     ahead: float = 30.0
-    # Parts of an interval; shortest part of the run.
+    # Parts of an interval; shortest part, relative to the run.
     parts: int = 8
     shortest: float = 1e-13
-    # Rows that are so few, with so many steps between them, that all are suspect.
+    # All intervals are examined if there are fewer rows than this, with more steps between two of them than this.
     few: int = 64
     steps_a_row: int = 4
-    # Meetings without an effect after which the search ends, intervals that are examined, and steps in each.
+    # Limits of the search: coincidences without force, intervals, and steps in each.
     harmless: int = 3
     looks: int = 2000
     steps: int = 20_000
@@ -31,11 +30,11 @@ class Meeting:
 
 @dataclass(frozen=True)
 class Promises:
-    """Laws that are said to be smooth."""
+    """Laws declared smooth."""
 
-    # Part of the largest value of a law that is a step; less may be rounding of its constants.
+    # Jump of a law, relative to its largest value: less may be round-off of its constants.
     step: float = 1e-4
-    # Switches of one law that are examined more closely, how often, and times at once.
+    # Switches of one law that are located, refinements of each, and times per refinement.
     switches: int = 3
     closer: int = 12
     parts: int = 8
@@ -43,32 +42,32 @@ class Promises:
 
 @dataclass(frozen=True)
 class Validity:
-    """Ranges in which components hold."""
+    """Ranges of validity of components."""
 
-    # Most output points that are checked, in general and where each check costs a solution of the equations.
+    # Output points checked at most: in general, and if each check needs a solution of the equations.
     rows: int = 500
     dear: int = 40
-    # Of what is not small: values of the integrator that are less are small.
+    # Value at the integrator's states, relative to the limit, below which no accurate value is needed.
     nearly: float = 0.3
 
 
 @dataclass(frozen=True)
 class Causes:
-    """Why a run fails."""
+    """Causes of failed runs."""
 
-    # What has no value counts as this in the other equations: inside the range of every function.
+    # Substitute for an undefined value in other equations: inside the domain of every function.
     ordinary: float = 0.7
-    # A combination of equations of length 1 vanishes if so little of it is left; what weighs less in it takes no part.
+    # Norm of a combination of equations of length 1 that vanishes; smallest weight of an equation in it.
     rank: float = 1e-11
     weight: float = 1e-3
-    # Digits of a weight in which rounding does not show.
+    # Digits of a weight that are unaffected by round-off; number of scaling iterations.
     digits: int = 6
     balancing: int = 3
-    # Equations of which a dense decomposition takes a few seconds.
+    # Equations for a dense decomposition, which then takes a few seconds.
     largest: int = 2000
-    # Beyond the last point that was reached, in parts of the way to where an integrator stopped, at least so much of the run.
+    # Points examined beyond the last one reached, relative to the way to the failure, which is at least this part of the run.
     beyond: tuple[float, ...] = (1.0, 2.0, 10.0)
     shortest: float = 1e-4
-    # Lines and names in a message, and letters of an expression.
+    # Lines and names in a message, and characters of an expression.
     shown: int = 5
     text: int = 40

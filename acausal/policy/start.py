@@ -1,4 +1,4 @@
-"""Thresholds of what finds a start: Newton iterations, ranks, loops, rest."""
+"""Thresholds of the initialisation: Newton iterations, ranks, loops, equilibria, modes."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from math import inf
 
 @dataclass(frozen=True)
 class Newton:
-    """The damped iteration on the initial system; sizes of unknowns are their nominal values plus what they are."""
+    """Damped Newton iteration on the initial system; unknowns are scaled by nominal value plus magnitude."""
 
-    # Deuflhard 2004, section 3.3: a damped iteration that is to converge does so in a few tens of steps.
+    # A convergent damped iteration needs a few tens of steps (Deuflhard 2004, section 3.3).
     iterations: int = 60
-    # Evaluations in which undamped steps of the core find algebraic unknowns, if that is accepted: one, and its confirmation.
+    # Evaluations of an undamped iteration in the core: one step and its confirmation.
     quick: int = 2
-    # Change in a step, over the size: the next one, of its square, is rounding.
+    # Scaled Newton step: the next one is of the order of its square, which is round-off.
     converged: float = 1e-8
-    # A last correction below this is rounding itself.
+    # Scaled Newton step at round-off level.
     rounding: float = 1e-13
-    # Damping below which the residual does not fall; 2^-20 of a step.
+    # Damping factor at which the iteration fails: 2^-20.
     damping: float = 1e-6
-    # Rounding errors of an equation, over those of one term: sums of up to 1,000 terms.
+    # Round-off of an equation, relative to that of one term: sums of up to 1,000 terms.
     terms: float = 1e3
-    # Residual, over the change that the sizes of its unknowns make in it: ten times `converged`.
+    # Residual, relative to its change by the scales of its unknowns: ten times `converged`.
     consistent: float = 1e-7
-    # What the residual norm may keep beside its natural decrease: rounding of scaled steps.
+    # Residual norm, in addition to its natural decrease: round-off of scaled steps.
     floor: float = 1e-14
-    # Steps of the homotopy (Allgower & Georg 1990) over its path: the first, by how much they grow and shrink, and the
-    # shortest before the path counts as ended.
+    # Step of the homotopy (Allgower & Georg 1990), relative to its path: the first, growth and reduction factor, and the
+    # smallest, at which the homotopy fails.
     first: float = 0.1
     growth: float = 1.5
     shrinkage: float = 3.0
@@ -36,40 +36,40 @@ class Newton:
 
 @dataclass(frozen=True)
 class Ranks:
-    """Ranks of Jacobians whose columns count in nominal values and whose rows have length 1."""
+    """Ranks of Jacobians with columns scaled by nominal values and rows of length 1."""
 
-    # Singular values, over the number of rows: loops are closed to 1e-9, and so are their directions. So is the length of a row,
-    # over that of the longest of its equation: an axis that is off by rounding would lock a four-bar.
+    # Singular value, relative to the number of rows: loops close to 1e-9, which limits their directions. Also the length of a
+    # row, relative to the longest row of its equation: an axis off by round-off would otherwise lock a four-bar.
     rank: float = 1e-9
-    # Length of the longest row of an equation, over that of all or 1, from which on it may be rounding: that is looked at then.
+    # Length of the longest row of an equation, relative to that of all or to 1, below which it is compared with round-off.
     faint: float = 1e-6
-    # The least singular value of a loop in which nothing moves that may be meant to: axes of a four-bar that are off by 0.01 rad.
+    # Smallest singular value of a loop without mobility that causes a warning: axes of a four-bar that are off by 0.01 rad.
     locked: float = 1e-2
-    # Rows up to which matrices are small: they are dense, all in one; rounding of the singular values of others is no more.
+    # Rows of a matrix for dense decompositions, whose round-off is that of sparse ones.
     small: int = 100
-    # Singular value of which the square is well above rounding.
+    # Singular value whose square is well above round-off.
     squared: float = 1e-5
-    # Positions where ranks are lost are known only as well as the root of how well loops close.
+    # Singular value in a singular configuration, whose position is known to the square root of the closing tolerance.
     nearly: float = 1e-5
-    # Where the independent part of a constraint is this small, forces are large enough to stop an integrator.
+    # Singular value near a singular configuration, where large forces can stop an integrator.
     beside: float = 1e-3
-    # Part of a condition that is independent of the ones before: the root of rounding, with some room.
+    # Part of a condition that is independent of the previous ones: the square root of round-off, times ten.
     independent: float = 1e-7
-    # Small motions after which a rank is computed again, in nominal values; long enough to see a rank that rises with
-    # the square of them, short enough to stay in a mechanism of flat links (n-four-bar).
+    # Small motions before a rank is computed again, in nominal values: large enough for a rank that rises with their square,
+    # small enough for a mechanism of flat links (n-four-bar).
     motion: float = 1e-2
     shake: float = 1e-3
     away: float = 0.1
-    # Random motions in which a rank is computed again: one that stays low in three is low.
+    # Number of random motions: a rank that is low in three is low.
     motions: int = 3
-    # How well the loops must close after such a motion: its effect on ranks is that of `closed` over `motion`.
+    # Closing error of loops after such a motion: the ratio `closed` / `motion` affects ranks.
     moved: float = 1e-10
-    # Singular values that a step of least norm takes as 0, and those that polishing does: beside a singular configuration.
+    # Singular values that count as 0 in minimum-norm steps, and in the final corrections near a singular configuration.
     least_norm: float = 1e-12
     polish: float = 1e-7
-    # A constraint that cannot be dropped counts as that much longer than others.
+    # Weight of constraints that cannot be dropped, relative to others.
     kept: float = 1e3
-    # So do, where states are chosen, those that no constraint holds, coordinates before their rates, and guessed states.
+    # Weights in the choice of states: of states without constraints, of coordinates before their rates, of guessed states.
     unheld: float = 100.0
     coordinate: float = 10.0
     guessed: float = 10.0
@@ -77,71 +77,70 @@ class Ranks:
 
 @dataclass(frozen=True)
 class Loops:
-    """Closed loops; a residual counts over the change that nominal values of the states make in it."""
+    """Closed loops; residuals are relative to their change by the nominal values of the states."""
 
-    # Rounding of a loop of some ten joints, with room for one that turned a thousand times.
+    # Residual: round-off of a loop of some ten joints after a thousand revolutions.
     closed: float = 1e-9
-    # What a constraint that follows from others may be off by: the root of that, as ranks are known, with some room.
+    # Residual of a redundant constraint during a run: the square root of `closed`, by which ranks are uncertain, times three.
     opened: float = 1e-4
-    # Rows of a run at which that is looked at: a loop that opens may close again after whole turns.
+    # Number of rows checked for it: a loop that opens may close again after whole revolutions.
     seen: int = 20
-    # Rates beside a singular configuration are known only as well as the root of that, but for a factor.
+    # Residual of the rates near a singular configuration: they are known to the square root of `closed` at best.
     rough: float = 1e-6
-    # Disturbances of the guesses, in nominal values, after which closing is tried again: a loop that folds the wrong way
-    # needs a large one.
+    # Perturbations of the guesses, in nominal values, in successive attempts to close loops: a loop in the wrong assembly
+    # configuration needs a large one.
     attempts: tuple[float, ...] = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
-    # How far loops may miss where soft conditions yield, over the size of the motion: places in a mesh have three digits at
-    # least, and elastic parts are strained by no more than this.
+    # Gap of a loop that soft conditions may close, relative to the motion: positions in a mesh have at least three digits,
+    # and the strain of elastic parts is at most this.
     taken: float = 1e-3
-    # Evaluations of a try, relative changes at which it ends, and steps of least norm that polish it.
+    # Evaluations of an attempt, relative step at which it ends, and number of final minimum-norm corrections.
     evaluations: int = 200
     ends: float = 1e-15
     polishing: int = 5
-    # Damping of the first step of a try, over the greatest square of a residual's gradient. From random guesses of five
-    # mechanisms closed positions are the nearer the larger it is; from 0.1 on it makes little difference.
+    # Initial Levenberg-Marquardt damping, relative to the largest squared gradient of a residual. For random guesses of five
+    # mechanisms, larger damping finds closer positions, with little difference above 0.1.
     damping: float = 0.1
-    # How well constraints that are kept hold those that follow from them: below the first others are kept, from the second on
-    # they stay when a call begins. Of Bennett's linkage and of two cranks on a coupler the best choice has 0.56 to 0.98.
+    # Conditioning of the independent constraints relative to all: below the first another subset is selected, above the second
+    # it stays at the start of a call. The best subsets of Bennett's linkage and of two cranks on a coupler have 0.56 to 0.98.
     unfit: float = 0.25
     fairly: float = 0.5
-    # Nominal values by which states of loops move in the first call of a method that is looked at after it, where that may
-    # happen: a tenth from one look to the next (`calls.fine`). Later calls are twice as long as the one before.
+    # Motion of the states of loops in the first call of an integrator that is checked afterwards, in nominal values: a tenth
+    # between two checks (`calls.fine`). Each further call is twice as long.
     first: float = 6.0
-    # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
-    # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
+    # Cosine between constraints and directions of projection: below it the selection is unsuitable, because errors grow with
+    # its reciprocal, 20.
     worn: float = 0.05
-    # What coordinates of one unit change in constraints, over what others do, that their sizes follow: a machine of 1e6 mm.
-    slight: float = 1e-7
-    # Places around the guesses at which they do, and how far away in nominal values: joints turn that far.
+    # Random positions for the scales of coordinates: number, and distance from the guesses in nominal values, a usual rotation.
     looks: int = 16
     around: float = 1.0
-    # The former in a large mechanism, over the best of a choice among n states; how well cosines of large ones are known.
+    # `worn` in a large mechanism, relative to the best selection among n states; tolerance of singular values of large
+    # matrices; cosine required when stiff coordinates are spared, at which errors grow by a factor of 3.
     fit: float = 0.5
     angles: float = 1e-3
     spared: float = 0.3
-    # Of the logarithm of an entry: entries as near to each other are one, and sums of up to 2^20 logarithms are exact.
+    # Grid of logarithms of entries: close entries become equal, and sums of up to 2^20 logarithms are exact.
     grid: float = 2.0**-20
-    # Decades above the square of the feedback, both in 1/s2, that a coordinate may resist before it counts as stiff.
+    # Decades of the stiffness of a coordinate above the square of the feedback, both in 1/s2, that are distinguished.
     decades: int = 12
-    # How much stiffer than those that can close a loop are parts that do not give way when it follows a jump, in 1/s2 over 1/s2:
-    # vibrations thirty times as fast. What their sizes count then, over those of others.
+    # Stiffness of coordinates that do not follow a jump, relative to those that can close the loop, in 1/s2: vibrations
+    # thirty times as fast. Weight of these coordinates, relative to others.
     stiffer: float = 1e3
     stiff: float = 1e-6
-    # Way out of a singular configuration in nominal values: its square is the error of what is left out.
+    # Step out of a singular configuration in nominal values: the error of linearisation is its square.
     away: float = 1e-4
-    # Change of speeds on it, over the greatest: on a branch it is of the order of the way.
+    # Change of speeds in this step, relative to the largest speed: on a branch it is of the order of the step.
     stays: float = 1e-2
-    # Speed of joints, in nominal values, that is rest: rates of a singular configuration are known no better than that.
+    # Speed of joints at rest, in nominal values: rates in a singular configuration are not known better.
     rest: float = 1e-4
-    # What a coordinate is integrated by follows it; beyond this fraction of its size it has lost it.
+    # Distance of an integrated coordinate from the projected one, relative to its scale, at which the projection fails.
     apart: float = 0.1
-    # Smallest singular value of constraints, over their sizes, in a flat position: nearer, errors choose the way (flat.c). It
-    # is looked for in so many parts of a step, and again beside the least of them: 1 / 4^5 of a step is nearer than that.
+    # Smallest singular value of scaled constraints in a singular configuration: below it, errors select the branch (flat.c).
+    # It is searched at so many points of a step, then repeatedly near the least of them, to 1 / 4^5 of a step.
     flat: float = 1e-3
     parts: int = 8
     zooms: int = 6
-    # Returns of what is integrated to what the constraints allow in a run, e-fold each (Baumgarte 1972): slow against
-    # the motion, and enough for errors of a run not to add up.
+    # Time constants of the feedback of states to the constraints in a run (Baumgarte 1972): slow compared with the motion,
+    # but sufficient to prevent an accumulation of errors.
     feedback: float = 10.0
 
 
@@ -149,72 +148,72 @@ class Loops:
 class Rest:
     """Equilibrium."""
 
-    # A derivative that is 0, over the change that nominal values of the unknowns make in it.
+    # Derivative that counts as 0, relative to its change by the nominal values of the unknowns.
     still: float = 1e-7
-    # Turns of a cyclic coordinate at which loads are the same in steady rotation, in nominal values (1 rad): no two of them, nor
-    # 0, are alike for a rotor of up to 20 blades. Part of a turn within which a drive that speeds up changes the speed.
+    # Rotations of a cyclic coordinate at which loads are compared in steady rotation, in nominal values (1 rad): no two of them,
+    # nor 0, are equivalent for a rotor of up to 20 blades. Time of another comparison, relative to that of the rotation.
     turns: tuple[float, ...] = (1.0, 2.3)
     later: float = 1e-3
-    # Steps of the fourth order in a turn whose rates change on the way: errors of (1/32)^4 / 120 = 1e-8.
+    # Runge-Kutta steps of order 4 for a rotation with variable rates: errors of (1/32)^4 / 120 = 1e-8.
     parts: int = 32
-    # Change of an entry of a linear system in a turn, over the largest of its row, that is none: ten times `still`.
+    # Change of an entry of a linear system by a rotation, relative to the largest of its row, that counts as 0: 10 `still`.
     periodic: float = 1e-6
-    # How fast states return to invariants in the search, in 1/s, as in `linearize`.
+    # Feedback of states to invariants in the search, in 1/s, as in `linearize`.
     feedback: float = 1.0
-    # Random signs of rounding errors: the largest effect of eight is within a factor of a few of the largest there is.
+    # Samples of random signs of round-off: the largest effect of eight is close to the largest possible one.
     signs: int = 8
-    # Newton steps, and implicit Euler steps that follow the motion.
+    # Newton steps, and implicit Euler steps of the pseudo-transient continuation.
     newton: int = 60
     relaxation: int = 1000
-    # Largest change of a state in a step, in nominal values: a joint that turns by no more stays on its branch.
+    # Largest change of a state in a step, in nominal values: a joint stays on its branch.
     far: float = 0.3
-    # Change of a coordinate beyond which an equilibrium may not be the one that is near: a quarter of a turn, and some.
+    # Change of a coordinate, in rad or nominal values, above which an equilibrium is not near its guess: a quarter of a turn.
     turn: float = 1.6
-    # Steps of the relaxation over the time of the fastest motion at the guess: the first, their growth, the last, and the
-    # shortest; part of the step that limits would allow, as in other controls of steps (Hairer & Wanner 1996, section IV.8).
+    # Steps of the continuation, relative to the period of the fastest motion at the guess: the first, growth, the last, and the
+    # smallest; safety factor of the step control (Hairer & Wanner 1996, section IV.8).
     first: float = 1e-3
     growth: float = 2.0
     safety: float = 0.8
     last: float = 1e8
     shortest: float = 1e-12
-    # Attempts of the relaxation: how far a step may lead in nominal values, and what a second iteration may change in it, over
-    # it. Soft modes go far by steps that are nearly exact; stiff parts that ring bend each step, though nothing moves far.
+    # Limits of a step in successive attempts: its length in nominal values, and the relative change by a second Newton
+    # iteration. Soft modes permit long, nearly linear steps; vibrating stiff parts make steps non-linear without much motion.
     limits: tuple[tuple[float, float], ...] = ((inf, 0.2), (0.3, inf), (inf, 0.5))
-    # By what a step is shortened that is too long.
+    # Reduction factor of a step beyond its limits.
     shrinkage: float = 2.0
-    # Change in a step, over the size, that is rounding.
+    # Scaled Newton step at round-off level.
     converged: float = 1e-12
     halvings: int = 6
-    # What a step must take off the residuals, as a fraction of what it would take off linear ones (Armijo's rule).
+    # Decrease of the residuals in a step, relative to that of the linear model (Armijo's rule).
     decrease: float = 0.1
-    # Steps back to the guess, the shortest part of one, and the way back that is none.
+    # Steps back to the guess: their number, the smallest fraction of one, and the remaining distance that counts as 0.
     back: int = 20
     short: float = 0.1
     there: float = 1e-9
-    # A state is at its guess within that, in nominal values.
+    # Distance of a state from its guess that counts as 0, in nominal values.
     guess: float = 1e-6
-    # Push off an unstable equilibrium, in nominal values.
+    # Perturbation of an unstable equilibrium, in nominal values.
     push: float = 1e-2
-    # Influence of a state on everything, over the greatest, that is rounding.
+    # Influence of a state, relative to the largest, at round-off level.
     faint: float = 1e-13
-    # Singular value of what is free, but for rounding.
+    # Singular value of undetermined directions, at round-off level.
     weak: float = 1e-11
-    # Growth that is none, over the size of the eigenvalue; and over the root of rounding, by which double zeros split.
+    # Growth rate that counts as 0, relative to the eigenvalue, and to the splitting of double zeros by round-off.
     grows: float = 1e-6
     split: float = 10.0
 
 
 @dataclass(frozen=True)
 class Switches:
-    """Switches that fit the start."""
+    """Consistent modes at the start."""
 
-    # Rounds until they do; each settles one switch at least, and chains of ideal parts have a few.
+    # Principal pivots: each determines at least one switch, and chains of ideal parts have a few.
     rounds: int = 20
-    # Rounds beyond them where they repeat themselves, in which switches change one at a time: 5,000 sets of n saturations in
-    # random monotone feedback, n up to 8, took 2 n at most. All assignments of six switches are as many.
+    # Further pivots, one switch at a time, if the sequence repeats: 5,000 sets of n saturations in random monotone feedback, n
+    # up to 8, took at most 2 n. Six switches have as many assignments.
     tries: int = 64
-    # Change of a discrete variable, over its value, that is none.
+    # Change of a discrete variable, relative to its value, that counts as 0.
     same: float = 1e-9
-    # Excess of a condition, over its scale, that may be rounding: at dead centre the pistons of a V6 engine move at 2e-16 m/s,
-    # this way or the other.
+    # Event indicator at round-off level, relative to its scale: at dead centre the pistons of a V6 engine move at 2e-16 m/s,
+    # in either direction.
     rounding: float = 1e-14

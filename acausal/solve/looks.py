@@ -10,7 +10,7 @@ GOLDEN = (5**0.5 - 1) / 2
 
 
 def pace(times: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """Return how far functions go in each interval at the greater of their rates at its ends.
+    """Return the change of functions in each interval at the larger of their rates at its ends.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def uneven(grid: np.ndarray, parts: int) -> np.ndarray:
     grid : array, shape (n + 1,)
         Ends of the intervals in s.
     parts : int
-        Parts of each.
+        Number of parts of each interval.
     """
     n = len(grid) - 1
     share = 0.6 + 0.8 * (np.arange(n * parts) * GOLDEN % 1).reshape(n, parts)
@@ -41,9 +41,9 @@ def uneven(grid: np.ndarray, parts: int) -> np.ndarray:
     return times
 
 
-@lru_cache(maxsize=256)  # runs of one model ask for the same again and again
+@lru_cache(maxsize=256)  # runs of one model have the same intervals
 def spread(n: int, most: int) -> np.ndarray:
-    """Return the places of at most so many of n rows, evenly spread, the first and the last among them; not to be changed."""
+    """Return the indices of evenly spread rows of n, including the first and the last; the array is read-only."""
     found = np.unique(np.linspace(0, n - 1, min(n, most)).astype(int))
     found.setflags(write=False)
     return found

@@ -39,11 +39,11 @@ from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 from acausal.solve.results.evaluator import Evaluator
 
-PLAIN = 10  # numbers of each output beside its values
+PLAIN = 10  # further numbers stored for each output
 SHOWN = 5  # times in a message
 ROUGH = (
-    "the energies are less accurate than the tolerance: a power varies faster than points between the outputs can follow. "
-    "Take more points: simulate(..., intervals=...)."
+    "the energies are less accurate than the tolerance: a power varies too fast for the points between the outputs. "
+    "Use more points: simulate(..., intervals=...)."
 )
 
 
@@ -73,13 +73,13 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     InitializationError
         If no consistent initial values exist or are found.
     SimulationError
-        If the integration fails; its `result` holds what was computed.
+        If the integration fails; its `result` has the rows before the failure.
     """
     made, (problem, plan, beginning) = memo_seconds(compiled), _begun(compiled, p, task)
     begun, at_first = clock.perf_counter(), memo_seconds(compiled)
     done = _integrated(problem, plan, beginning, task)
     building = done.integrator.trace.building + memo_seconds(compiled) - at_first
-    # A run costs what it costs, whichever run before it left its beginning.
+    # Counts of a run do not depend on earlier runs, even if one of them computed its initial point.
     seconds = beginning.seconds + clock.perf_counter() - begun - building
     done.integrator.trace.building = building + at_first - made
     met = None if isinstance(done.failure, KeyboardInterrupt) else first_violation(done.integrator, done.first)
@@ -95,7 +95,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
 
 @np.errstate(all="ignore")
 def sizes_of_run(compiled: CompiledModel, p: np.ndarray, task: Task) -> np.ndarray:
-    """Return the sizes of states and algebraic unknowns with which a run is accepted, or ends early; as `run` for the rest."""
+    """Run a model as `run` does; return the final nominal values of states and algebraic unknowns, even if the run fails."""
     done = _integrated(*_begun(compiled, p, task), task)
     if isinstance(done.failure, KeyboardInterrupt):
         raise done.failure
@@ -105,7 +105,7 @@ def sizes_of_run(compiled: CompiledModel, p: np.ndarray, task: Task) -> np.ndarr
 
 @dataclass(frozen=True)
 class _Plan:
-    """Output times, break times that parameters tell, all instants of time alone, and a time before the first of them."""
+    """Output times, break times by parameters alone, and all time events."""
 
     times: np.ndarray
     breaks: list[float]
@@ -118,7 +118,7 @@ class _Plan:
 
 @dataclass(frozen=True)
 class _Done:
-    """What a run did: where it began and continued, what integrated it, its events, and what ended it early."""
+    """A finished run: start, first point, integrator, events, and the exception that ended it early."""
 
     begun: Start
     at: Point
@@ -143,8 +143,8 @@ def _plan(problem: Problem, task: Task) -> _Plan:
     numbers = (task.intervals + 1) * (problem.nx + problem.nz + PLAIN)
     if numbers > POLICY.defaults.numbers:
         raise DeclarationError(
-            f"intervals is {task.intervals}: the result would need {8e-9 * numbers:.3g} GB. Take fewer; what happens "
-            "between two outputs is computed all the same."
+            f"intervals is {task.intervals}: the result would need {8e-9 * numbers:.3g} GB. Use fewer; the motion "
+            "between two outputs is computed in any case."
         )
     times = begin + (end - begin) * np.linspace(0.0, 1.0, task.intervals + 1)
     times[-1] = end
@@ -154,7 +154,7 @@ def _plan(problem: Problem, task: Task) -> _Plan:
 
 
 def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Task) -> _Done:
-    """Integrate, again where states turn out to be much smaller than they were taken for."""
+    """Integrate, and repeat with other nominal values if states are much smaller than assumed."""
     at, span = beginning.at, task.stop_time - task.start_time
     settings = Settings(
         nominal=problem.nominal,
@@ -180,7 +180,7 @@ def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Ta
         except (Failure, Chattering) as failure:
             done = replace(done, failure=failure)
             if isinstance(failure, Failure) and failure.kind is Kind.ERROR_TEST:
-                # Values that grow without end are known up to a time that is as uncertain as the tolerance says.
+                # The time of an escape to infinity is known to the tolerance; rows closer to it are meaningless.
                 integrator.trace.cut(failure.time - task.tolerance * span)
         fitting = smaller_sizes(problem, integrator.trace.states(at), settings.nominal, task.tolerance, span)
         if fitting is None:
@@ -190,7 +190,7 @@ def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Ta
 
 
 def _raise(done: _Done, result: Result) -> NoReturn:
-    """Raise what ended a run, with what was computed."""
+    """Raise the exception that ended a run, with the result so far."""
     failure: Any = done.failure
     if isinstance(failure, Failure | Chattering):
         text = str(failure)
@@ -204,7 +204,7 @@ def _raise(done: _Done, result: Result) -> NoReturn:
 
 
 def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
-    """Break times inside a run; those only a few rounding errors apart are one."""
+    """Return the break times inside a run, without those that differ by round-off."""
     found, apart = list[float](), part_of_time(POLICY.agenda.apart, start, stop)
     for b in sorted(b for b in instants if start < b < stop):
         if b - (found or [start])[-1] > apart * abs(b) and stop - b > apart * abs(stop):
@@ -278,23 +278,23 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
 
 
 def _loosened(integrator: Integrator) -> list[str]:
-    """Say where a larger tolerance was needed."""
+    """Return a warning with the times at which a larger tolerance was needed."""
     times = integrator.trace.loosened
     if not times:
         return []
     shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
     return [
-        f"no step was short enough for the tolerance {integrator.tolerance:g} after t = {shown} s, as happens near a "
-        "singular configuration; a larger one was taken for one output interval each time; errors may be larger afterwards."
+        f"step size underflow at the tolerance {integrator.tolerance:g} after t = {shown} s, as happens near a singular "
+        "configuration; each time one output interval was integrated with a larger tolerance, so errors may be larger afterwards."
     ]
 
 
 def _flat(integrator: Integrator) -> list[str]:
-    """Say where loops passed a flat position by a method that may go on either way."""
+    """Return a warning if loops passed a singular configuration by a method that may take either branch."""
     times = integrator.trace.flat
     if not times:
         return []
     return [
-        f"closed loops pass a flat position at t = {min(times):.6g} s, from which two motions lead on; the method that damps "
-        'vibrations may have left the one that it was on. method="idas" keeps to it (docs/loops.md).'
+        f"the mechanism passes a singular configuration, where motions branch, at t = {min(times):.6g} s; the method that damps "
+        'vibrations may have left its branch. method="idas" stays on the branch (docs/loops.md).'
     ]

@@ -49,10 +49,10 @@ def asked(monkeypatch):
     [
         ([], 2, "export writes one file: give --fmu FILE.fmu or --dae FILE"),
         (["--fmu", "a.fmu", "--dae", "a.dae"], 2, "export writes one file"),
-        (["--fmu", "a.zip"], 2, "cannot write a.zip: importers want a name that ends in .fmu"),
+        (["--fmu", "a.zip"], 2, "cannot write a.zip: importers need a name that ends in .fmu"),
         (["--fmu", "none/a.fmu"], 2, "there is no directory"),
         (["--fmu", "decay.py"], 2, "--fmu would replace decay.py, which the command reads"),
-        (["--fmu", "a.fmu", "--fmi-version", "1"], 2, "there is no version 1 of FMI to export to: give 2 or 3"),
+        (["--fmu", "a.fmu", "--fmi-version", "1"], 2, "fmi_version must be 2 or 3, not 1"),
         (["--fmu", "a.fmu", "--fmi-version", "three"], 2, "Invalid value for '--fmi-version'"),
         (["--fmu", "a.fmu", "--platforms", "linux"], 2, "there is no platform `linux`; did you mean `linux-x86_64`?"),
         (["--fmu", "a.fmu", "--platforms", ""], 2, "there is no platform ``."),

@@ -136,7 +136,7 @@ def _select(levels: list[Block], D: np.ndarray, on: np.ndarray) -> np.ndarray:
     if not rows.size:
         return selection
     (row_of, row), (column_of, column) = (np.unique(k, return_inverse=True) for k in (rows, columns))
-    # A weight of 0 would be no entry. Sums of multiples of the grid are exact; with round-off the matching may cycle.
+    # A weight of 0 would not be a matrix entry. Sums of multiples of the grid are exact; with round-off the matching may cycle.
     weights = np.ceil((1 - np.log(sizes)) / LOOPS.grid) * LOOPS.grid
     weight = scipy.sparse.csr_matrix((weights, (row, column)))
     pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)

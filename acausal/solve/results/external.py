@@ -68,7 +68,7 @@ def evaluator_of(
 def _check(compiled: CompiledModel) -> None:
     if compiled.constraints.size:
         raise DeclarationError(
-            "the model has closed loops, whose states a run selects at the start and on its way: no result can be made from "
+            "the model has closed loops, whose states a run selects at the start and later: no result can be made from "
             "states. Simulate it, or make a result of arrays alone, without model="
         )
     if compiled.guards.n_discretes:

@@ -98,7 +98,7 @@ class Effects:
         Parameters
         ----------
         path : str or Path
-            Name of the file, written whole or not at all.
+            Name of the file, which is written atomically.
         """
         parts = [
             f"# Effects of {self.scene}",
@@ -117,7 +117,7 @@ class Effects:
         Parameters
         ----------
         path : str or Path
-            Name of the file, written whole or not at all.
+            Name of the file, which is written atomically.
         """
         kinds = [
             ("reference", self.reference),

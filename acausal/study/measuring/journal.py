@@ -134,7 +134,7 @@ def _lines(path: Path) -> list[str]:
 
 def _foreign_file(path: Path | None) -> str:
     return (
-        f"{path} is in the way: a study keeps its finished cases in a file of this name, and this one is something else. "
+        f"{path} is not a journal: a study stores its finished cases in a file of this name. "
         "Move it, or give the CSV file another name."
     )
 

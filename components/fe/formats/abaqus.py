@@ -14,7 +14,7 @@ from acausal import DeclarationError
 from components.fe.formats.instances import instance_of
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices, from_entries, rigid_forces
-from components.fe.formats.text import table, text_of, whole_numbers, wrong
+from components.fe.formats.text import file_error, table, text_of, whole_numbers
 from components.fe.nodes import Nodes
 
 FILE = re.compile(r"(?P<job>.+)_(?P<kind>STIF|MASS)(?P<step>\d*)\.mtx", re.IGNORECASE)
@@ -60,14 +60,14 @@ def read_abaqus(path: str | Path | Sequence[str | Path], *, length: float = 1.0,
         If a file is missing, truncated or of another format, nodes have degrees of freedom other than displacements, or
         nodes and equations do not match.
     """
-    masses, stiffness, inp = _files(Path(path)) if isinstance(path, str | Path) else _three(path)
+    masses, stiffness, inp = _files(Path(path)) if isinstance(path, str | Path) else _three_files(path)
     deck, move = instance_of(list(blocks(inp)))
     places, found = node_positions(deck), list(elements(deck))
     numbers = np.unique(np.array([node for _, nodes in found for node in nodes], dtype=np.int64))
     missing = [name for name in numbers.tolist() if name not in places]
     if missing or not numbers.size:
         what = f"node {missing[0]} has elements, but no position under *NODE" if missing else "there are no elements"
-        raise wrong(inp, what)
+        raise file_error(inp, what)
     nodes = move(np.array([places[name] for name in numbers.tolist()]))
     n = 3 * numbers.size
     K, M = (_matrix(file, numbers) for file in (stiffness, masses))
@@ -76,7 +76,7 @@ def read_abaqus(path: str | Path | Sequence[str | Path], *, length: float = 1.0,
         free = sp.diags_array((~held).astype(float))
         M, K = (free @ matrix @ free for matrix in (M, K))
     elif (force := rigid_forces(K, nodes)) > RIGID:
-        raise wrong(
+        raise file_error(
             stiffness,
             f"the {n} equations resist rigid-body motions of the nodes ({force:.1g} of the largest forces): their order differs "
             f"from that of the nodes in {inp.name}, or a spring or contact holds the body; use FORMAT=MATRIX INPUT",
@@ -88,10 +88,10 @@ def read_abaqus(path: str | Path | Sequence[str | Path], *, length: float = 1.0,
 def is_abaqus(path: str | Path) -> bool:
     """Return whether a file is an Abaqus matrix by its name, or has such files in its folder."""
     path = Path(path)
-    return bool(FILE.fullmatch(path.name)) or bool(_beside(path.parent, path.stem, "STIF"))
+    return bool(FILE.fullmatch(path.name)) or bool(_matrix_files(path.parent, path.stem, "STIF"))
 
 
-def _three(paths: Sequence[str | Path]) -> list[Path]:
+def _three_files(paths: Sequence[str | Path]) -> list[Path]:
     files = [Path(path) for path in paths]
     if len(files) != 3:
         raise DeclarationError("pass three files of Abaqus: mass matrix, stiffness matrix, input file")
@@ -104,21 +104,21 @@ def _files(path: Path) -> list[Path]:
     job = named["job"] if named else path.stem if path.suffix.lower() == ".inp" else path.name
     found = []
     for kind in ("STIF", "MASS"):
-        files = _beside(path.parent, job, kind)
+        files = _matrix_files(path.parent, job, kind)
         if named and len(files) > 1:
             files = [file for file in files if FILE.fullmatch(file.name)["step"] == named["step"]]  # pyright: ignore
         if len(files) > 1:
-            raise wrong(
+            raise file_error(
                 path, f"there are several matrices, {', '.join(file.name for file in files)}; pass the name of one"
             )
         if not files:
-            raise wrong(path, f"there is no matrix {job}_{kind}1.mtx in its folder")
+            raise file_error(path, f"there is no matrix {job}_{kind}1.mtx in its folder")
         found += files
     inp = path if path.suffix.lower() == ".inp" else path.parent / f"{job}.inp"
     return [*found[::-1], inp]
 
 
-def _beside(folder: Path, job: str, kind: str) -> list[Path]:
+def _matrix_files(folder: Path, job: str, kind: str) -> list[Path]:
     files = sorted(folder.iterdir()) if folder.is_dir() else []
     matches = ((FILE.fullmatch(file.name), file) for file in files)
     return [file for match, file in matches if match and match["job"] == job and match["kind"].upper() == kind]
@@ -132,7 +132,7 @@ def _matrix(path: Path, numbers: np.ndarray) -> Any:
         values = table(path, "a matrix of Abaqus", "row, column, value", comments="*")
         index = whole_numbers(path, values[:, :2], "row and column") - 1
         if index.max() + 1 != n:
-            raise wrong(path, f"there are {index.max() + 1} equations, but {n // 3} nodes with elements have {n}")
+            raise file_error(path, f"there are {index.max() + 1} equations, but {n // 3} nodes with elements have {n}")
     else:
         values = table(path, "a matrix of Abaqus", "node, freedom, node, freedom, value", comments="*")
         names = whole_numbers(path, values[:, :4], "nodes and freedoms")
@@ -151,19 +151,19 @@ def _columns(path: Path) -> int:
 def _equations(path: Path, pairs: np.ndarray, numbers: np.ndarray) -> np.ndarray:
     names, freedoms = pairs.T
     if names.min() <= 0:
-        raise wrong(
+        raise file_error(
             path,
             f"node {names.min()} is an internal node of Abaqus (hybrid elements or constraints), which is not supported",
         )
     if freedoms.min() < 1 or freedoms.max() > 3:
         bad = pairs[(freedoms < 1) | (freedoms > 3)][0]
-        raise wrong(
+        raise file_error(
             path,
             f"node {bad[0]} has the degree of freedom {bad[1]}, which is not a displacement; only solids are supported",
         )
     rows = np.minimum(np.searchsorted(numbers, names), numbers.size - 1)
     if (numbers[rows] != names).any():
-        raise wrong(
+        raise file_error(
             path, f"node {names[numbers[rows] != names][0]} has equations, but no solid element in the input file"
         )
     return 3 * rows + freedoms - 1

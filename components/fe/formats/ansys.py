@@ -12,8 +12,8 @@ import scipy.sparse as sp
 
 from components.fe.formats import ansys_process
 from components.fe.formats.matrices import Matrices, mirrored, placed
-from components.fe.formats.text import wrong
-from components.fe.formats.third_party import existing, installed
+from components.fe.formats.text import file_error
+from components.fe.formats.third_party import existing_file, require_module
 from components.fe.nodes import Nodes
 
 COORDINATES = (".rst", ".cdb")
@@ -51,18 +51,18 @@ def read_ansys(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> M
         If a file is missing, truncated or of another format, nodes have degrees of freedom other than displacements or
         rotated axes, or ansys-mapdl-reader is not installed (`pip install 'acausal[ansys]'`).
     """
-    file = existing(path, "matrices of Ansys")
+    file = existing_file(path, "matrices of Ansys")
     if file.suffix.lower() in COORDINATES:
-        file = existing(file.with_suffix(".full"), "matrices of Ansys")
-    installed("ansys.mapdl.reader", "ansys", "reading files of Ansys")
+        file = existing_file(file.with_suffix(".full"), "matrices of Ansys")
+    require_module("ansys.mapdl.reader", "ansys", "reading files of Ansys")
     beside = next((file.with_suffix(end) for end in COORDINATES if file.with_suffix(end).is_file()), None)
     if beside is None:
-        raise wrong(file, f"neither {file.stem}.rst nor {file.stem}.cdb with the nodes is in its folder")
+        raise file_error(file, f"neither {file.stem}.rst nor {file.stem}.cdb with the nodes is in its folder")
     found = _read(file, beside)
     equations = found["equations"]
     bad = equations[(equations[:, 1] < 0) | (equations[:, 1] > 2)]
     if len(bad):
-        raise wrong(
+        raise file_error(
             file, f"node {bad[0, 0]} has a degree of freedom that is not a displacement; only solids are supported"
         )
     numbers, rows = np.unique(equations[:, 0], return_inverse=True)
@@ -84,7 +84,7 @@ def _read(full: Path, beside: Path) -> dict[str, np.ndarray]:
         if done.returncode or not out.is_file():
             last = beside if str(beside) in done.stdout.splitlines() else full
             why = done.stderr.strip().splitlines()[-1:] if done.returncode > 0 else ["the reader crashed"]
-            raise wrong(last, f"this is not an Ansys file, or is damaged ({', '.join(why)})".replace(".)", ")"))
+            raise file_error(last, f"this is not an Ansys file, or is damaged ({', '.join(why)})".replace(".)", ")"))
         with np.load(out) as content:
             return dict(content)
 
@@ -93,13 +93,13 @@ def _nodes(path: Path, found: dict[str, np.ndarray], numbers: np.ndarray) -> Nod
     """Return the nodes with these numbers, in the unit of the file, and the solid elements between them."""
     known, places, angles = (found[name] for name in ("nnum", "nodes", "node_angles"))
     if not known.size:
-        raise wrong(path, "there are no nodes in this file")
+        raise file_error(path, "there are no nodes in this file")
     order = np.argsort(known)
     at = order[np.minimum(np.searchsorted(known, numbers, sorter=order), known.size - 1)]
     if (known[at] != numbers).any():
-        raise wrong(path, f"node {numbers[known[at] != numbers][0]} has equations, but no position in this file")
+        raise file_error(path, f"node {numbers[known[at] != numbers][0]} has equations, but no position in this file")
     if angles.size and angles.reshape(known.size, -1)[at].any():
-        raise wrong(path, "nodes have rotated axes (NROTAT), which is not supported")
+        raise file_error(path, "nodes have rotated axes (NROTAT), which is not supported")
     cells = {kind: found[key] for count, kind in SOLIDS.items() if (key := f"cells {count}") in found}
     cells = {kind: np.searchsorted(numbers, c) for kind, c in cells.items() if np.isin(c, numbers).all()}
     return Nodes(places[at][:, :3], numbers, cells)

@@ -14,7 +14,7 @@ WORD = 4  # bytes, the unit of lengths in Ansys files
 SOLIDS = (10, 12, 13, 24, 25, 26)
 
 
-def whole(reader: Any, path: str) -> Any:
+def read_complete(reader: Any, path: str) -> Any:
     """Read a binary file and check its length against its header."""
     found = reader.read_binary(path)
     heading = {**getattr(found, "_header", {}), **getattr(found, "_resultheader", {})}
@@ -28,7 +28,7 @@ def whole(reader: Any, path: str) -> Any:
 
 def matrices(reader: Any, path: str) -> dict[str, np.ndarray]:
     """Return the equations (node, freedom) and the entries of K and M, one triangle of each."""
-    equations, *found = whole(reader, path).load_km(sort=False)
+    equations, *found = read_complete(reader, path).load_km(sort=False)
     if any(matrix is None for matrix in found):
         raise EOFError("the mass or stiffness matrix is missing; the file of a modal analysis has both")
     content = {"equations": equations}
@@ -41,7 +41,7 @@ def matrices(reader: Any, path: str) -> dict[str, np.ndarray]:
 def mesh(reader: Any, path: str) -> dict[str, np.ndarray]:
     """Return numbers, positions and axes of the nodes, and solid elements by their number of nodes."""
     archive = path.lower().endswith(".cdb")
-    source = reader.Archive(path, verbose=False) if archive else whole(reader, path)
+    source = reader.Archive(path, verbose=False) if archive else read_complete(reader, path)
     found = source if archive else source.mesh
     content = {name: np.asarray(getattr(found, name)) for name in ("nnum", "nodes", "node_angles")}
     if source.grid is None:  # nodes alone

@@ -9,7 +9,7 @@ import numpy as np
 
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices, condensed, from_entries, placed
-from components.fe.formats.text import LARGEST, table, text_of, whole_numbers, wrong
+from components.fe.formats.text import LARGEST, file_error, table, text_of, whole_numbers
 from components.fe.nodes import Nodes
 
 SUFFIXES = (".inp", ".sti", ".mas", ".dof")
@@ -53,7 +53,7 @@ def read_calculix(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -
     added = 3 * INTERNAL * sum(kind.startswith("C3D8I") for kind, _ in found)
     inner = names > max(places)
     if np.count_nonzero(inner) != added:
-        raise wrong(
+        raise file_error(
             dof,
             f"{np.count_nonzero(inner)} equations belong to nodes not in {inp.name}, but C3D8I accounts for {added} of "
             "them; only solids are supported, not shells, beams or membranes, which CalculiX expands",
@@ -63,12 +63,14 @@ def read_calculix(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -
         try:
             K = condensed(K, inner)
         except np.linalg.LinAlgError:
-            raise wrong(sti, "the equations of the incompatible modes are singular and cannot be condensed") from None
+            raise file_error(
+                sti, "the equations of the incompatible modes are singular and cannot be condensed"
+            ) from None
         M, names, directions = M[~inner][:, ~inner], names[~inner], directions[~inner]
     numbers = np.unique(np.concatenate([names, [node for _, nodes in found for node in nodes]]).astype(np.int64))
     missing = [name for name in numbers.tolist() if name not in places]
     if missing:
-        raise wrong(inp, f"node {missing[0]} has equations or elements, but no position under *NODE")
+        raise file_error(inp, f"node {missing[0]} has equations or elements, but no position under *NODE")
     equations = 3 * np.searchsorted(numbers, names) + directions
     M, K = (mass * placed(matrix, equations, 3 * numbers.size) for matrix in (M, K))
     cells = cells_of(found, {name: row for row, name in enumerate(numbers.tolist())})
@@ -88,11 +90,11 @@ def _equations(path: Path) -> tuple[np.ndarray, np.ndarray]:
     for line, entry in enumerate(text.splitlines(), 1):
         name, point, direction = entry.strip().partition(".")
         if not (point and name.isdecimal() and direction.isdecimal()):
-            raise wrong(path, f"a line must be node.direction, such as 12.3, not `{entry.strip()[:60]}`", line)
+            raise file_error(path, f"a line must be node.direction, such as 12.3, not `{entry.strip()[:60]}`", line)
         if int(name) > LARGEST:
-            raise wrong(path, f"the node number {name[:60]} is too large", line)
+            raise file_error(path, f"the node number {name[:60]} is too large", line)
         if direction not in ("1", "2", "3"):
-            raise wrong(
+            raise file_error(
                 path,
                 f"node {name} has the degree of freedom {direction}, which is not a displacement; only solids are supported",
                 line,
@@ -100,10 +102,10 @@ def _equations(path: Path) -> tuple[np.ndarray, np.ndarray]:
         names.append(int(name))
         directions.append(int(direction) - 1)
     if not text.endswith("\n"):
-        raise wrong(path, "the last line is incomplete; the file seems to be truncated")
+        raise file_error(path, "the last line is incomplete; the file seems to be truncated")
     pairs = np.array([names, directions])
     if np.unique(pairs, axis=1).shape[1] < len(names):
-        raise wrong(path, "an equation occurs twice in this file")
+        raise file_error(path, "an equation occurs twice in this file")
     return pairs[0], pairs[1]
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from components.fe.formats.text import number, text_of, wrong
+from components.fe.formats.text import file_error, number, text_of
 
 # Number of nodes of the solids by their element routine in ET. Others, such as surfaces and contacts, are ignored.
 SOLIDS = {
@@ -57,11 +57,13 @@ def read_cdb(path: str | Path) -> tuple[np.ndarray, np.ndarray, dict[str, np.nda
             for kind, nodes in _elements(path, _rows(path, rest, line, "EBLOCK"), routines):
                 found.setdefault(kind, []).append(nodes)
     if not places or not found:
-        raise wrong(path, f"there is no {'NBLOCK' if not places else 'EBLOCK of solids'} in it; CDWRITE,DB writes both")
+        raise file_error(
+            path, f"there is no {'NBLOCK' if not places else 'EBLOCK of solids'} in it; CDWRITE,DB writes both"
+        )
     rows = {name: row for row, name in enumerate(places)}
     lost = next((name for cells in found.values() for nodes in cells for name in nodes if name not in rows), None)
     if lost is not None:
-        raise wrong(path, f"an element refers to node {lost}, which is not in the file")
+        raise file_error(path, f"an element refers to node {lost}, which is not in the file")
     cells = {kind: np.array([[rows[name] for name in nodes] for nodes in members]) for kind, members in found.items()}
     return np.array(list(places.values())), np.array(list(places)), cells
 
@@ -74,7 +76,7 @@ def _rows(path: str | Path, rest: Iterator[tuple[int, str]], begun: int, block: 
     at, form = next(rest, (begun, ""))
     fields = [(kind.lower(), int(width)) for n, kind, width in FIELD.findall(form) for _ in range(int(n or 1))]
     if not fields:
-        raise wrong(path, f"{block} must begin with its format, such as (3i9,6e21.13e3), not `{form[:60]}`", at)
+        raise file_error(path, f"{block} must begin with its format, such as (3i9,6e21.13e3), not `{form[:60]}`", at)
     ends = np.cumsum([width for _, width in fields]).tolist()
     slices = [(kind, slice(end - width, end)) for (kind, width), end in zip(fields, ends, strict=True)]
     for line, text in rest:
@@ -83,7 +85,7 @@ def _rows(path: str | Path, rest: Iterator[tuple[int, str]], begun: int, block: 
         parts = [(kind, text[part].strip()) for kind, part in slices if text[part].strip()]
         if parts:
             yield line, [word for kind, word in parts if kind == "i"], [word for kind, word in parts if kind != "i"]
-    raise wrong(path, f"the file is truncated: it ends inside {block}, which begins in line {begun}")
+    raise file_error(path, f"the file is truncated: it ends inside {block}, which begins in line {begun}")
 
 
 def _elements(path: str | Path, rows: Iterator[Row], routines: dict[int, int]) -> Iterator[tuple[str, list[int]]]:
@@ -94,10 +96,10 @@ def _elements(path: str | Path, rows: Iterator[Row], routines: dict[int, int]) -
         while len(nodes) < count:
             line, whole, _ = next(rows, (line, [], []))
             if not whole:
-                raise wrong(path, f"element {head[NUMBER]} has {len(nodes)} nodes instead of {count}", line)
+                raise file_error(path, f"element {head[NUMBER]} has {len(nodes)} nodes instead of {count}", line)
             nodes += _integers(path, line, whole)
         if len(head) <= HEAD or head[TYPE] not in routines:
-            raise wrong(path, "the element has no nodes, or a type that no ET defines", line)
+            raise file_error(path, "the element has no nodes, or a type that no ET defines", line)
         needed = SOLIDS.get(routines[head[TYPE]], 0)
         if not needed:
             continue
@@ -106,7 +108,7 @@ def _elements(path: str | Path, rows: Iterator[Row], routines: dict[int, int]) -
             nodes = nodes[:needed]
         if len(nodes) != needed or 0 in nodes:
             have = len(nodes) - nodes.count(0)
-            raise wrong(path, f"element {head[NUMBER]} has {have} nodes, but its type needs {needed}", line)
+            raise file_error(path, f"element {head[NUMBER]} has {have} nodes, but its type needs {needed}", line)
         kind, own = KINDS[needed], range(needed)
         for other, members, pairs in COLLAPSED.get(needed, ()):
             if all(nodes[a] == nodes[b] for a, b in pairs):
@@ -119,7 +121,7 @@ def _integers(path: str | Path, line: int, words: list[str]) -> list[int]:
     try:
         return [int(word) for word in words]
     except ValueError:
-        raise wrong(path, f"integers are expected here, not `{' '.join(words)[:60]}`", line) from None
+        raise file_error(path, f"integers are expected here, not `{' '.join(words)[:60]}`", line) from None
 
 
 def _place(path: str | Path, line: int, words: list[str]) -> list[float]:
@@ -127,4 +129,4 @@ def _place(path: str | Path, line: int, words: list[str]) -> list[float]:
     try:
         return [number(word) for word in (*words[:3], "", "", "")[:3]]
     except ValueError:
-        raise wrong(path, f"x, y, z of a node must be numbers, not `{' '.join(words[:3])[:60]}`", line) from None
+        raise file_error(path, f"x, y, z of a node must be numbers, not `{' '.join(words[:3])[:60]}`", line) from None

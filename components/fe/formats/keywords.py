@@ -1,4 +1,4 @@
-"""Keyword decks, the input files of Abaqus and CalculiX: blocks, nodes, elements."""
+"""Blocks, nodes and elements of keyword decks, the input files of Abaqus and CalculiX."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from components.fe.formats.text import LARGEST, number, text_of, wrong
+from components.fe.formats.text import LARGEST, file_error, number, text_of
 
-DEEPEST = 20  # files that include one another
-# Solid elements: their name in the deck begins so, name in meshio, nodes; the orders of nodes are the same.
+DEEPEST = 20  # levels of *INCLUDE; more means that files include each other
+# Solid elements: first letters of the type in the deck, meshio's name, number of nodes, in the same order in both.
 SOLIDS = (
     ("C3D4", "tetra", 4),
     ("C3D10", "tetra10", 10),
@@ -20,7 +20,7 @@ SOLIDS = (
     ("C3D8", "hexahedron", 8),
     ("C3D20", "hexahedron20", 20),
 )
-# Cards that make nodes, or move them, or turn their equations.
+# Keywords that generate or move nodes, or rotate the axes of their equations.
 GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "SYSTEM", "TRANSFORM")
 
 
@@ -31,11 +31,11 @@ class Block:
     Parameters
     ----------
     keyword : str
-        In capitals, without the star.
+        In capitals, without the asterisk.
     options : dict
-        Values by their names in capitals; "" for options without one.
+        Values by their names in capitals; "" for options without a value.
     path, line : Path, int
-        Where the keyword stands.
+        File and line of the keyword.
     data : list of (int, list of str)
         Line number and entries of each data line.
     """
@@ -48,24 +48,26 @@ class Block:
 
 
 def blocks(path: str | Path, depth: int = 0) -> Iterator[Block]:
-    """Yield the blocks of a deck; included files take the place of *INCLUDE.
+    """Yield the blocks of a deck, with included files in place of *INCLUDE.
 
     Raises
     ------
     DeclarationError
-        If a file cannot be read or holds no keyword.
+        If a file cannot be read or has no keyword.
     """
     if depth > DEEPEST:
-        raise wrong(path, f"files include one another more than {DEEPEST} times")
+        raise file_error(path, f"*INCLUDE is nested more than {DEEPEST} levels deep")
     begun = False
     for block in _of_one_file(Path(path)):
         begun = True
         if block.keyword == "INCLUDE":
-            yield from blocks(_beside(block), depth + 1)
+            yield from blocks(_input_file(block), depth + 1)
         else:
             yield block
     if not begun:
-        raise wrong(path, "this is no input file of Abaqus or CalculiX: no line begins with a keyword such as *NODE")
+        raise file_error(
+            path, "this is not an input file of Abaqus or CalculiX: no keyword such as *NODE begins a line"
+        )
 
 
 def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
@@ -74,38 +76,40 @@ def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
     Raises
     ------
     DeclarationError
-        If there are none, if a line is wrong, or if cards make, move or turn nodes, which is not followed.
+        If there are no nodes, a line is invalid, or a keyword that generates, moves or rotates nodes occurs.
     """
     found: dict[int, np.ndarray] = {}
     for block in deck:
         if block.keyword in GENERATING:
-            raise wrong(
-                block.path, f"*{block.keyword} is not read; write all nodes in global x, y, z under *NODE", block.line
+            raise file_error(
+                block.path,
+                f"*{block.keyword} is not supported; write all nodes in global x, y, z under *NODE",
+                block.line,
             )
         if block.keyword != "NODE":
             continue
         if block.options.get("SYSTEM", "R").upper() != "R":
-            raise wrong(block.path, "nodes in cylindrical or spherical coordinates are not read", block.line)
+            raise file_error(block.path, "nodes in cylindrical or spherical coordinates are not supported", block.line)
         for path, line, entries in _data(block):
             name, place = _node(path, line, entries)
             if name in found and not np.array_equal(found[name], place):
-                raise wrong(path, f"node {name} is given twice, at different places", line)
+                raise file_error(path, f"node {name} is defined twice, at different positions", line)
             found[name] = place
     if not found:
         where = deck[0].path if deck else ""
-        raise wrong(where, "there is no node under *NODE in this file")
+        raise file_error(where, "there is no node under *NODE in this file")
     return found
 
 
 def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
-    """Yield type and node numbers of each element of a deck; the type in capitals.
+    """Yield type, in capitals, and node numbers of each element of a deck.
 
-    A solid ends with its last node, whether or not a comma or more numbers follow in that line, as CalculiX reads it.
+    A solid ends with its last node, even if a comma or more numbers follow in that line, as in CalculiX.
 
     Raises
     ------
     DeclarationError
-        If a line is wrong, or an element lacks nodes.
+        If a line is invalid or an element has too few nodes.
     """
     for block in deck:
         if block.keyword != "ELEMENT":
@@ -114,17 +118,19 @@ def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
         _, needed = solid(kind)
         for path, line, more in _data(block):
             entries += _integers(path, line, more)
-            if len(entries) > needed > 0 or (not needed and more[-1]):  # else it continues on the next line
+            if len(entries) > needed > 0 or (not needed and more[-1]):  # else the element continues on the next line
                 yield kind, entries[1:][: needed or None]
                 entries = []
         if entries:
-            raise wrong(block.path, f"the last element has {len(entries) - 1} nodes, fewer than a {kind}", block.line)
+            raise file_error(
+                block.path, f"the last element has {len(entries) - 1} nodes, too few for a {kind}", block.line
+            )
 
 
 def solid(kind: str) -> tuple[str, int]:
-    """Return meshio's name and the number of nodes of a solid element, or "" and 0 for anything else.
+    """Return meshio's name and the number of nodes of a solid element, or "" and 0 for other types.
 
-    C3D15V and C3D27 of Abaqus have a number of nodes that differs from element to element.
+    The number of nodes of C3D15V and C3D27 in Abaqus differs from element to element: they are not supported.
     """
     if "V" in kind:
         return "", 0
@@ -133,7 +139,7 @@ def solid(kind: str) -> tuple[str, int]:
 
 
 def cells_of(found: Iterable[tuple[str, list[int]]], rows: Mapping[int, int]) -> dict[str, list[list[int]]]:
-    """Return the solid elements of a deck by meshio's names, with rows instead of numbers of nodes."""
+    """Return the solid elements of a deck by meshio's names, with rows of the nodes instead of their numbers."""
     cells: dict[str, list[list[int]]] = {}
     for kind, names in found:
         name, count = solid(kind)
@@ -153,7 +159,7 @@ def _of_one_file(path: Path) -> Iterator[Block]:
                 block.data.append((place, [entry.strip() for entry in line.split(",")]))
             continue
         started += line
-        if line.endswith(","):  # continues on the next line
+        if line.endswith(","):  # the keyword line continues on the next line
             continue
         if block is not None:
             yield block
@@ -169,17 +175,17 @@ def _block(path: Path, line: int, text: str) -> Block:
     return Block(" ".join(name.upper().split()), values, path, line)
 
 
-def _beside(block: Block) -> Path:
+def _input_file(block: Block) -> Path:
     name = block.options.get("INPUT", "")
     if not name:
-        raise wrong(block.path, f"*{block.keyword} lacks INPUT=file", block.line)
+        raise file_error(block.path, f"*{block.keyword} lacks INPUT=file", block.line)
     return block.path.parent / name
 
 
 def _data(block: Block) -> Iterator[tuple[Path, int, list[str]]]:
-    """Yield the data lines of a block, those of the file that it names included."""
+    """Yield the data lines of a block, including those of the file that INPUT names."""
     if "INPUT" in block.options:
-        path = _beside(block)
+        path = _input_file(block)
         for place, line in enumerate(text_of(path, f"data of *{block.keyword}").splitlines(), 1):
             if line.strip() and not line.startswith("*"):
                 yield path, place, [entry.strip() for entry in line.split(",")]
@@ -192,9 +198,9 @@ def _node(path: Path, line: int, entries: list[str]) -> tuple[int, np.ndarray]:
         name = int(entries[0])
         place = np.array([number(entry) for entry in (*entries[1:4], "", "", "")[:3]])
     except ValueError:
-        raise wrong(path, f"a node is given as number, x, y, z, not `{', '.join(entries)[:60]}`", line) from None
+        raise file_error(path, f"a node needs number, x, y, z, not `{', '.join(entries)[:60]}`", line) from None
     if not 0 < name <= LARGEST:
-        raise wrong(path, f"numbers of nodes are positive, and not as large as {entries[0][:60]}", line)
+        raise file_error(path, f"a node number must be from 1 to {LARGEST}, not {entries[0][:60]}", line)
     return name, place
 
 
@@ -206,4 +212,4 @@ def _integers(path: Path, line: int, entries: list[str]) -> list[int]:
         return numbers
     except ValueError:
         shown = ", ".join(entries)[:60]
-        raise wrong(path, f"an element is given as number, node, node, ..., not `{shown}`", line) from None
+        raise file_error(path, f"an element needs number, node, node, ..., not `{shown}`", line) from None

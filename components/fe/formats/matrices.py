@@ -1,4 +1,4 @@
-"""Sparse matrices from what files hold: triangles, equations in an order of their own, internal equations."""
+"""Assembly of sparse matrices from file entries: triangles, permuted equations, internal equations."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from components.fe.formats.text import wrong
+from components.fe.formats.text import file_error
 
 Matrices = tuple[Any, Any, np.ndarray]
 
@@ -17,7 +17,7 @@ Matrices = tuple[Any, Any, np.ndarray]
 def from_entries(
     path: str | Path, rows: np.ndarray, columns: np.ndarray, values: np.ndarray, n: int, *, full: bool = True
 ) -> Any:
-    """Return a square matrix from its entries, the other triangle included where the file holds one of them.
+    """Return a square matrix from its entries; a single triangle is completed by symmetry.
 
     Parameters
     ----------
@@ -30,32 +30,31 @@ def from_entries(
     n : int
         Number of equations.
     full : bool
-        Whether every equation has an entry on the diagonal.
+        Whether the diagonal is complete; a missing entry means that the file was truncated.
 
     Raises
     ------
     DeclarationError
-        If an entry lies outside or stands twice, or an equation that should has no entry on the diagonal: the file was
-        cut.
+        If an entry is outside the matrix or occurs twice, or a diagonal entry is missing although `full`.
     """
     for index in (rows, columns):
         if index.size and (index.min() < 0 or index.max() >= n):
             place = int(np.flatnonzero((index < 0) | (index >= n))[0])
             at = f"({rows[place] + 1}, {columns[place] + 1})"
-            raise wrong(path, f"an entry stands at {at}, but there are {n} equations")
+            raise file_error(path, f"the entry {at} is outside the matrix of {n} equations")
     matrix = sp.coo_array((values, (rows, columns)), (n, n)).tocsr()
     if matrix.nnz < values.size:
         order = np.lexsort((columns, rows))
         twice = order[1:][(np.diff(rows[order]) == 0) & (np.diff(columns[order]) == 0)][0]
-        raise wrong(path, f"the entry ({rows[twice] + 1}, {columns[twice] + 1}) stands twice")
+        raise file_error(path, f"the entry ({rows[twice] + 1}, {columns[twice] + 1}) occurs twice")
     missing = np.setdiff1d(np.arange(n), rows[rows == columns])
     if full and missing.size:
-        raise wrong(path, f"equation {missing[0] + 1} of {n} has no entry on the diagonal; the file may be cut off")
+        raise file_error(path, f"equation {missing[0] + 1} of {n} has no diagonal entry; the file may be truncated")
     return mirrored(matrix)
 
 
 def mirrored(matrix: Any) -> Any:
-    """Return the symmetric matrix of which one entry of each pair is given; one with both is returned as it is."""
+    """Return the symmetric matrix of a triangle; a matrix with entries in both triangles is returned unchanged."""
     shape = sp.csr_array((np.ones(matrix.nnz), matrix.indices, matrix.indptr), matrix.shape)
     if shape.multiply(shape.T).nnz > np.count_nonzero(shape.diagonal()):
         return matrix
@@ -63,30 +62,30 @@ def mirrored(matrix: Any) -> Any:
 
 
 def placed(matrix: Any, places: Sequence[int] | np.ndarray, n: int) -> Any:
-    """Return the matrix of n equations in which equation k of a given one is equation places[k]; others are empty."""
+    """Return the matrix of n equations with equation k of the argument at places[k]; all others are empty."""
     entries = matrix.tocoo()
     places = np.asarray(places)
     return sp.coo_array((entries.data, (places[entries.row], places[entries.col])), (n, n)).tocsr()
 
 
 def condensed(stiffness: Any, inner: np.ndarray) -> Any:
-    """Return K_bb - K_bi inv(K_ii) K_ib: the stiffness of the other equations where no force acts on the inner ones.
+    """Return the static condensation K_bb - K_bi inv(K_ii) K_ib.
 
     Parameters
     ----------
     stiffness : sparse (n, n)
         Symmetric.
     inner : array of bool (n,)
-        Equations to be eliminated, few in each group that is coupled: those of one element.
+        Equations i to eliminate. Each coupled group must be small, such as those of one element.
     """
     outer = ~inner
     K_ii, K_ib = (stiffness[inner][:, part].tocsr() for part in (inner, outer))
     rest = stiffness[outer][:, outer] - K_ib.T @ _inverse(K_ii) @ K_ib
-    return ((rest + rest.T) / 2).tocsr()  # symmetric to the last digit, whatever the order of the sums
+    return ((rest + rest.T) / 2).tocsr()  # exactly symmetric despite round-off
 
 
 def _inverse(matrix: Any) -> Any:
-    """The inverse of a symmetric matrix of many small blocks, whatever the order of its equations."""
+    """Return the inverse of a symmetric matrix that a permutation makes block diagonal with small blocks."""
     count, group = sp.csgraph.connected_components(matrix, directed=False)
     sizes = np.bincount(group, minlength=count)
     order = np.argsort(group, kind="stable")
@@ -102,7 +101,7 @@ def _inverse(matrix: Any) -> Any:
 
 
 def rigid_forces(stiffness: Any, nodes: np.ndarray) -> float:
-    """Return the largest force that a stiffness opposes to rigid motions of its nodes, as a part of its terms' sizes."""
+    """Return the largest force of rigid-body motions, relative to the sum of its absolute terms."""
     r = nodes - nodes.mean(axis=0)
     motions = [np.tile(e, (len(r), 1)) for e in np.eye(3)] + [np.cross(e, r) for e in np.eye(3)]
     R = np.stack([motion.ravel() for motion in motions], axis=1)

@@ -14,20 +14,19 @@ PLACES = ("coords_m", "coords_mm", "nodes")
 
 
 def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tuple[Any, Any, np.ndarray]:
-    """Mass, stiffness and nodes from a .npz file.
+    """Read mass matrix, stiffness matrix and nodes from a .npz file.
 
-    It holds the nodes as `coords_m`, `coords_mm` or `nodes`, shape (N, 3), and each of mass and stiffness as a full or
-    triangular matrix: dense under its name, or sparse in rows (CSR) as NAME_data, NAME_indices and NAME_indptr. The
-    names are `K` for the stiffness, shape (3 N, 3 N), and `M` for the mass, or `mscalar`, shape (N, N), for the mass of
-    each pair of nodes.
+    The nodes are the array `coords_m`, `coords_mm` or `nodes`, shape (N, 3). The stiffness is `K`, shape (3 N, 3 N).
+    The mass is `M`, or `mscalar`, shape (N, N), whose entries are multiplied by the 3 x 3 unit matrix. A matrix is full
+    or triangular, and either dense under its name or sparse (CSR) as NAME_data, NAME_indices and NAME_indptr.
 
     Parameters
     ----------
     path : str or Path
         File.
     length, mass : float
-        Metres in the file's unit of length, kilograms in its unit of mass, where seconds are the unit of time: 1e-3 and
-        1e3 for mm, N and Mg. The name `coords_mm` changes nothing.
+        Units of the file in m and kg: 1e-3 and 1e3 for mm, N and Mg. The unit of time must be the second. The name
+        `coords_mm` implies no unit.
 
     Returns
     -------
@@ -39,7 +38,7 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
     Raises
     ------
     DeclarationError
-        If the file is not there, not whole, or lacks one of these.
+        If the file is missing, damaged, or lacks one of the arrays.
     """
     from scipy.sparse import csr_array, kron
 
@@ -52,19 +51,19 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
         raise DeclarationError(f"{path} is not a .npz file, or is damaged{reason(error)}") from None
     places = next((name for name in PLACES if name in content), None)
     if places is None and "modal_first" in content:
-        raise DeclarationError(f"{path} holds a body that is reduced already: FEBody(reduced=...) takes it")
+        raise DeclarationError(f"{path} is a reduced body; pass it to FEBody(reduced=...)")
     if places is None:
-        raise DeclarationError(f"{path} holds no nodes ({', '.join(PLACES)}), but {', '.join(content) or 'nothing'}")
+        raise DeclarationError(f"{path} has no nodes ({', '.join(PLACES)}), only {', '.join(content) or 'nothing'}")
     K, M = _matrix(content, "K", path), _matrix(content, "M", path)
     if M is None and (scalar := _matrix(content, "mscalar", path)) is not None:
         M = csr_array(kron(scalar, np.eye(3), format="csr"))
     if K is None or M is None:
-        raise DeclarationError(f"{path} holds no {'stiffness (K)' if K is None else 'mass (M or mscalar)'}")
+        raise DeclarationError(f"{path} has no {'stiffness (K)' if K is None else 'mass (M or mscalar)'}")
     return mass * M, mass * K, length * np.asarray(content[places], dtype=float)
 
 
 def _matrix(content: dict[str, np.ndarray], name: str, path: str | Path) -> Any:
-    """A full matrix, whether the file has all of it or one triangle."""
+    """Return the full matrix of this name, or None if the file does not have it."""
     from scipy.sparse import csr_array, tril, triu
 
     if name in content:
@@ -75,7 +74,7 @@ def _matrix(content: dict[str, np.ndarray], name: str, path: str | Path) -> Any:
             A = csr_array((data, indices, starts), shape=(len(starts) - 1,) * 2)
             A.check_format()
         except (KeyError, ValueError) as error:
-            raise DeclarationError(f"{path} holds no whole sparse matrix {name}: {error}") from None
+            raise DeclarationError(f"{path} has an invalid sparse matrix {name}: {error}") from None
     else:
         return None
     below, above = tril(A, -1), triu(A, 1)

@@ -1,4 +1,4 @@
-"""Which reader a file is for."""
+"""Selection of the reader of a file by its name and its neighbours."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ KINDS = (
 
 
 def reader_of(path: str | Path) -> Reader | None:
-    """Return the reader of the matrices that a file holds or stand beside it; None for any other file.
+    """Return the reader of the matrices in a file or in its folder; None for files without matrices.
 
     Parameters
     ----------
     path : str or Path
-        A file; for Matrix Market also what the names of three files have in common, or their folder.
+        A file; for Matrix Market also the common part of the names of three files, or their folder.
 
     Raises
     ------
@@ -61,5 +61,5 @@ def reader_of(path: str | Path) -> Reader | None:
     if not file.is_file():
         if list(file.parent.glob(f"{file.name}*M.mtx*")):
             return read_matrix_market
-        raise DeclarationError(f"there is no file {shown_name(path)}; reduce takes {KINDS}.")
+        raise DeclarationError(f"there is no file {shown_name(path)}; reduce accepts {KINDS}.")
     return None

@@ -1,4 +1,4 @@
-"""Reduced bodies as standard input data of a flexible body (SID), the text that several multibody programs exchange."""
+"""Reduced bodies as standard input data of a flexible body (SID), a text format for exchange of multibody programs."""
 
 from __future__ import annotations
 
@@ -8,47 +8,48 @@ import numpy as np
 
 from acausal.result.files import whole
 from components.fe.formats.sid_tree import DIGITS, Block, Taylor, index_order, read_tree, taylor
-from components.fe.formats.text import doubt, number, wrong
+from components.fe.formats.text import file_error, file_warning, number
 from components.fe.reduction.interface import Interface
 from components.fe.reduction.reduced_body import ReducedBody
 
 # w1^2, w2^2, w3^2, w1 w2, w2 w3, w1 w3: the columns of Oe.
 PRODUCTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
-PACKED = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])  # places of 11, 22, 33, 12, 13, 23
+PACKED = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])  # indices in 11, 22, 33, 12, 13, 23
 AXIAL = np.zeros((3, 3, 3))  # axial(A)_i = e_ijk A_jk
 AXIAL[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = 1.0
 AXIAL[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = -1.0
 
 
 def read_sid(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> ReducedBody:
-    """Return the body that a SID file holds (O. Wallrapp, Mech. Struct. Mach. 22 (1994) 283-304).
+    """Read the reduced body of a SID file (O. Wallrapp, Mech. Struct. Mach. 22 (1994) 283-304).
 
-    A SID is reduced already: there are no nodes and no matrices of a mesh in it. Its nodes become interfaces, and its
-    coordinates q new ones, for which M is the unit matrix, unless it is so in the file. Of what the file says more than
-    once (J and Gr, Ge beside Ct, Cr, Me, Oe) the second group is used. Where Oe has no M1, or holds more than inertia
-    (geometric stiffness due to spin), inertia of second order in q is not known: a warning says so, and the body has
-    that of first order. Stresses and loads at nodes are passed over, as are lines above `part`.
+    A SID is a reduced body, without the nodes and matrices of a mesh. Its nodes become interfaces. Its coordinates q
+    are transformed to make M the unit matrix. Of redundant data (J, Gr, Ge and Ct, Cr, Me, Oe) the second group is
+    used. The inertia of second order in q is unknown if Oe has no M1, or includes geometric stiffness due to spin: a
+    warning says so, and the body has inertia of first order. Stresses and loads at nodes are ignored, as are lines
+    above `part`.
 
-    The unit of time is the second. The coordinates q have the file's unit of length, so that mode shapes are numbers.
+    The unit of time must be the second. The coordinates q have the unit of length of the file, so that mode shapes are
+    dimensionless.
 
     Parameters
     ----------
     path : str or Path
         The file.
     length : float
-        Unit of length of the file in m. Places are multiplied by it; with the unit of mass, mdCM and Ct, J, Cr and Oe.
+        Unit of length of the file in m. Scales positions and, with the unit of mass, mdCM, Ct, J, Cr and Oe.
     mass : float
-        Unit of mass of the file in kg. Me, Ke and De are multiplied by it.
+        Unit of mass of the file in kg. Scales Me, Ke and De.
 
     Returns
     -------
     ReducedBody
-        `second_order` says whether its inertia is that of second order.
+        Its `second_order` tells whether the inertia is of second order.
 
     Raises
     ------
     DeclarationError
-        If the file is cut off or none of this kind, or a matrix has another size.
+        If the file is truncated or not a SID, or a matrix has a wrong size.
     """
     modal = _inner(path, read_tree(path))
     total, n = _modes(path, modal)
@@ -84,14 +85,14 @@ def read_sid(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Red
 
 
 def write_sid(body: ReducedBody, path: str | Path) -> None:
-    """Write a body as a SID file, whole or not at all: SI, 17 digits, inertia of second order (M1 of Cr, Gr, Ge, Oe).
+    """Write a body as a SID file in SI with 17 digits and inertia of second order (M1 of Cr, Gr, Ge, Oe).
 
     Parameters
     ----------
     body : ReducedBody
-        Frames without all rotations get no psi.
+        Frames without all rotations get psi = 0.
     path : str or Path
-        File; one that exists is replaced when the new one is complete.
+        File. An existing file is replaced only when the new one is complete.
     """
     n, A, B = body.n, body.modal_second, body.modal_products
     none = np.zeros((n, 3, n))
@@ -139,20 +140,22 @@ def _inner(path: str | Path, tree: Block) -> Block:
     parts = tree.named("part")
     modals = [modal for part in parts for modal in part.named("modal")]
     if len(modals) != 1:
-        raise wrong(path, f"a SID holds one `new modal` inside of `part`, and this file {len(modals)}")
+        raise file_error(path, f"a SID needs one `new modal` inside `part`, but this file has {len(modals)}")
     return modals[0]
 
 
 def _modes(path: str | Path, modal: Block) -> tuple[float, int]:
-    """Mass and number of modes."""
+    """Return the mass and the number of modes."""
     _parts(path, modal, ("refmod",))
     head = modal.named("refmod")[0]
     try:
         total, n = (number(head.settings[name][1]) for name in ("mass", "nelastq"))
     except (KeyError, ValueError):
-        raise wrong(path, "refmod needs mass and nelastq, which are numbers", head.line) from None
+        raise file_error(path, "refmod needs the numbers mass and nelastq", head.line) from None
     if not (total > 0 and 0 <= n == int(n)):
-        raise wrong(path, f"a body has mass and a number of modes, not mass {total:g} and nelastq {n:g}", head.line)
+        raise file_error(
+            path, f"mass must be positive and nelastq an integer from 0, not {total:g} and {n:g}", head.line
+        )
     return total, int(n)
 
 
@@ -160,21 +163,21 @@ def _parts(path: str | Path, block: Block, names: tuple[str, ...]) -> None:
     for name in names:
         if len(block.named(name)) != 1:
             where = f"{block.name} {block.value}".strip()
-            raise wrong(path, f"`{where}` has {len(block.named(name))} blocks `{name}` instead of one", block.line)
+            raise file_error(path, f"`{where}` has {len(block.named(name))} blocks `{name}` instead of one", block.line)
 
 
 def _matrix(path: str | Path, block: Block, order: tuple[int, ...], shape: tuple[int, int], n: int) -> Taylor:
     found = taylor(path, block, order)
     if found.constant.shape != shape:
         size, needed = ("{} x {}".format(*pair) for pair in (found.constant.shape, shape))
-        raise wrong(path, f"`{block.name}` is {size}, where {n} modes need {needed}", block.line)
-    if len(found.linear) != n:  # without modes of its own
+        raise file_error(path, f"`{block.name}` is {size}, but {n} modes need {needed}", block.line)
+    if len(found.linear) != n:  # a constant matrix, nq = 0
         return Taylor(found.constant, np.zeros((n, *shape)))
     return found
 
 
 def _inertia(path: str | Path, block: Block, order: tuple[int, ...], n: int) -> Taylor:
-    """J as 3 x 3, or as 6 x 1: 11, 22, 33, 12, 13, 23."""
+    """Return J, which the file has as 3 x 3 or as 6 x 1: 11, 22, 33, 12, 13, 23."""
     if taylor(path, block, order).constant.shape != (6, 1):
         return _matrix(path, block, order, (3, 3), n)
     packed = _matrix(path, block, order, (6, 1), n)
@@ -182,9 +185,9 @@ def _inertia(path: str | Path, block: Block, order: tuple[int, ...], n: int) -> 
 
 
 def _moments(path: str | Path, given: dict[str, Taylor], M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A_b and B_bc, from how modes turn the body (Cr) and how its spin bends it (Oe).
+    """Return the modal moments A_b and B_bc from Cr (antisymmetric parts) and Oe (symmetric parts).
 
-    Where Oe does not tell, A_b has its symmetric part from J, and of B_bc the antisymmetric part alone is known.
+    If Oe is incomplete or inconsistent, A_b takes its symmetric part from J, and that of B_bc is zero.
     """
     J, spin, turn, n = given["J"].linear, given["Oe"], given["Cr"], len(M)
     turned = turn.linear
@@ -194,22 +197,22 @@ def _moments(path: str | Path, given: dict[str, Taylor], M: np.ndarray) -> tuple
     A, B = _from_parts(spin.constant, turn.constant), _from_parts(spin.linear, turned)
     why = "" if spin.linear.any() or not n else "Oe has no M1"
     if J.any() and not _same(2 * np.trace(A, axis1=1, axis2=2)[:, None, None] * np.eye(3) - A - A.swapaxes(1, 2), J):
-        why = "M0 of Oe and M1 of J say different things about the modes"
+        why = "M0 of Oe and M1 of J are inconsistent"
         symmetric = np.trace(J, axis1=1, axis2=2)[:, None, None] / 4 * np.eye(3) - J / 2
         A = symmetric + (A - A.swapaxes(1, 2)) / 2
     elif not why and not _same(np.trace(B, axis1=2, axis2=3), M):
-        why = "the trace of M1 of Oe differs from Me, as if Oe held geometric stiffness, which is not read"
+        why = "the trace of M1 of Oe differs from Me; Oe seems to include geometric stiffness, which is not supported"
     if why:
-        doubt(
+        file_warning(
             path,
-            f'{why}. Forces of inertia of second order in q are not known and left out, as by inertia="first_order"',
+            f'{why}. Inertia forces of second order in q are unknown and omitted, as with inertia="first_order"',
         )
         B = (B - B.swapaxes(2, 3)) / 2
     return A, B
 
 
 def _from_parts(spin: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """The moments (..., 3, 3) of which `_centrifugal` and the axial vector are given."""
+    """Return the moments (..., 3, 3) with these `_centrifugal` parts and axial vectors."""
     trace = -spin[..., :3].sum(axis=-1) / 2
     moments = np.einsum("ijk,...i->...jk", AXIAL, turn) / 2
     for place, (i, j) in enumerate(PRODUCTS):
@@ -220,7 +223,7 @@ def _from_parts(spin: np.ndarray, turn: np.ndarray) -> np.ndarray:
 
 
 def _centrifugal(moments: np.ndarray) -> np.ndarray:
-    """W : A for the products of w in the order of `PRODUCTS`, shape (..., 6)."""
+    """Return W : A for the products of w in the order of `PRODUCTS`, shape (..., 6)."""
     trace = np.trace(moments, axis1=-2, axis2=-1)
     columns = [moments[..., i, j] - trace if i == j else moments[..., i, j] + moments[..., j, i] for i, j in PRODUCTS]
     return np.stack(columns, axis=-1)
@@ -232,7 +235,7 @@ def _orthonormal(path: str | Path, M: np.ndarray, K: np.ndarray) -> np.ndarray:
     try:
         return eigh(K, M)[1]
     except np.linalg.LinAlgError:
-        raise wrong(path, "Me is not positive definite") from None
+        raise file_error(path, "Me is not positive definite") from None
 
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
@@ -251,14 +254,16 @@ def _interface(
         if not _same(turn.constant, np.eye(3)):
             axes = turn.constant.T
             if not _same(axes @ turn.constant, np.eye(3)) or np.linalg.det(axes) < 0:
-                raise wrong(path, f"AP of node {node.value} is no rotation", block.line)
+                raise file_error(path, f"AP of node {node.value} is not a rotation", block.line)
             if turn.linear.any() and not _same(_skew(psi) @ turn.constant, turn.linear):
-                raise wrong(path, f"M1 of AP of node {node.value} is not psi x AP: psi is in other axes", block.line)
+                raise file_error(
+                    path, f"M1 of AP of node {node.value} is not psi x AP; psi is in other axes", block.line
+                )
     name = node.value if node.value.isidentifier() else f"node_{node.value}"
     turns = bool(psi.any() or not phi.any())
     return Interface(name, length * place, phi @ T, psi @ T / length, turns, axes)
 
 
 def _skew(turns: np.ndarray) -> np.ndarray:
-    """Matrices of v x for the columns v, shape (n, 3, 3)."""
+    """Return the matrices of v x for the columns v, shape (n, 3, 3)."""
     return -np.einsum("ijk,kb->bij", AXIAL, turns)

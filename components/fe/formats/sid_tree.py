@@ -1,4 +1,4 @@
-"""The text of a SID file: nested blocks, and matrices that are polynomials of first degree in the coordinates of modes."""
+"""Text of a SID file: nested blocks and matrices that are linear in the modal coordinates."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from components.fe.formats.text import number, text_of, wrong
+from components.fe.formats.text import file_error, number, text_of
 
 BLOCKS = ("part", "modal", "refmod", "frame", "node")
 MATRICES = (
@@ -32,26 +32,26 @@ MATRICES = (
 )
 ENTRY = re.compile(r"m([01])\s*\(([\d\s,]+)\)")
 SYMMETRIC, UNIT = 2, 4
-DIGITS = 1e-6  # to which files of few digits agree with themselves
-LARGEST = 10**8  # entries of a matrix: three times those of Ge for 2000 modes
-# Where the files that programs write have row, column and mode in m1(., ., .).
+DIGITS = 1e-6  # relative tolerance of consistency checks, for files written with few digits
+LARGEST = 10**8  # entries of a matrix; Ge for 2000 modes has a third of them
+# Positions of row, column and mode in m1(., ., .): they differ between the programs that write SID files.
 ORDERS = ((0, 2, 1), (0, 1, 2), (1, 2, 0))
 
 
 @dataclass
 class Block:
-    """What stands between a name and its end.
+    """A named block, from its name to its end.
 
     Parameters
     ----------
     name, value : str
         "node" and "tip" of `new node = tip`.
     line : int
-        Where it begins.
+        First line.
     settings : dict
-        Texts by name, with the lines where they stand.
+        Line and text of each setting by its name.
     parts : list of Block
-        Blocks inside.
+        Inner blocks.
     """
 
     name: str
@@ -61,17 +61,17 @@ class Block:
     parts: list[Block] = field(default_factory=list)
 
     def named(self, name: str) -> list[Block]:
-        """Return the blocks inside of this name."""
+        """Return the inner blocks with this name."""
         return [part for part in self.parts if part.name == name]
 
 
 def read_tree(path: str | Path) -> Block:
-    """Return the outermost block of a file; lines above `part` are a headline.
+    """Return the outermost block of a file; lines above `part` are a heading and ignored.
 
     Raises
     ------
     DeclarationError
-        If the file is none of this kind, or a block does not end.
+        If the file is not a SID, or a block does not end.
     """
     top = Block("", "", 0)
     stack = [top]
@@ -90,10 +90,12 @@ def read_tree(path: str | Path) -> Block:
             stack[-1].parts.append(Block(name, value, place))
             stack.append(stack[-1].parts[-1])
         else:
-            raise wrong(path, f"a SID has blocks such as part, new modal, frame, mdCM here, not `{text[:60]}`", place)
+            raise file_error(
+                path, f"a SID block (part, new modal, frame, mdCM, ...) is expected, not `{text[:60]}`", place
+            )
     if len(stack) > 1:
-        raise wrong(
-            path, f"the file ends inside of `{stack[-1].name}`, which begins in line {stack[-1].line}: it was cut off"
+        raise file_error(
+            path, f"the file is truncated: it ends inside `{stack[-1].name}`, which begins in line {stack[-1].line}"
         )
     return top
 
@@ -114,7 +116,7 @@ class Taylor:
     linear: np.ndarray
 
     def lines(self, name: str, indent: str) -> Iterator[str]:
-        """Yield the lines of a file that say this."""
+        """Yield the lines of a SID file for this matrix."""
         (rows, columns), n = self.constant.shape, len(self.linear)
         order = int(self.linear.any())
         head = {"order": order, "nrow": rows, "ncol": columns, "nq": n, "nqn": 0, "structure": 3}
@@ -128,7 +130,7 @@ class Taylor:
 
 
 def taylor(path: str | Path, block: Block, order: tuple[int, ...]) -> Taylor:
-    """Return the matrix that a block holds; zeros are not written.
+    """Return the matrix of a block; the file omits zeros.
 
     Parameters
     ----------
@@ -137,17 +139,17 @@ def taylor(path: str | Path, block: Block, order: tuple[int, ...]) -> Taylor:
     block : Block
         With order, nrow, ncol, nq, structure and entries.
     order : tuple
-        Which of the three indices of m1 are row, column and mode; one of `ORDERS`.
+        Positions of row, column and mode among the indices of m1; one of `ORDERS`.
 
     Raises
     ------
     DeclarationError
-        If an entry lies outside of the matrix or is no number.
+        If an entry is outside the matrix or not a number.
     """
     rows, columns, n, structure = (_whole(path, block, name) for name in ("nrow", "ncol", "nq", "structure"))
     if rows * columns * (n + 1) > LARGEST:
-        raise wrong(
-            path, f"`{block.name}` is {rows} x {columns} with {n} modes, more than a reduced body has", block.line
+        raise file_error(
+            path, f"`{block.name}` is {rows} x {columns} with {n} modes, too large for a reduced body", block.line
         )
     constant, linear = np.zeros((rows, columns)), np.zeros((n, rows, columns))
     if structure == UNIT:
@@ -166,17 +168,17 @@ def taylor(path: str | Path, block: Block, order: tuple[int, ...]) -> Taylor:
             else:
                 linear[index[order[2]], index[order[0]], index[order[1]]] = value
         except ValueError:
-            raise wrong(path, f"{name} is given as `{text[:60]}`, which is no finite number", line) from None
+            raise file_error(path, f"{name} is `{text[:60]}`, not a finite number", line) from None
         except IndexError:
             size = f"{rows} x {columns} with {n} modes"
-            raise wrong(path, f"{name} lies outside of {block.name}, which is {size}", line) from None
+            raise file_error(path, f"{name} is outside {block.name}, which is {size}", line) from None
     if structure == SYMMETRIC:
         constant, linear = (np.where(m != 0, m, np.swapaxes(m, -1, -2)) for m in (constant, linear))
     return Taylor(constant, linear)
 
 
 def index_order(path: str | Path, nodes: Sequence[Block]) -> tuple[int, ...]:
-    """Return the order of indices with which nodes are displaced as their mode shapes say: M1 of origin is M0 of phi."""
+    """Return the order of the indices of m1 for which M1 of origin equals M0 of phi, as the kinematics require."""
     for node in nodes:
         (origin,), (phi,) = node.named("origin"), node.named("phi")
         shape, indices = taylor(path, phi, ORDERS[0]).constant, _linear_indices(origin)
@@ -188,8 +190,8 @@ def index_order(path: str | Path, nodes: Sequence[Block]) -> tuple[int, ...]:
                 moved = taylor(path, origin, order).linear[:, :, 0].T
                 if moved.shape == shape.shape and np.allclose(moved, shape, atol=DIGITS * np.abs(shape).max()):
                     return order
-        raise wrong(
-            path, "m1 of `origin` differs from m0 of `phi`: the node would not move as its modes say", origin.line
+        raise file_error(
+            path, "m1 of `origin` differs from m0 of `phi`: the node would not move by its mode shapes", origin.line
         )
     return ORDERS[0]
 
@@ -202,13 +204,13 @@ def _linear_indices(block: Block) -> list[list[int]]:
 def _end(path: str | Path, stack: list[Block], line: int, text: str) -> None:
     name = text.removeprefix("end").strip()
     if len(stack) == 1 or (name and name != stack[-1].name):
-        inside = f"`{stack[-1].name}` is to end here" if len(stack) > 1 else "nothing has begun"
-        raise wrong(path, f"{inside}, not `{text[:60]}`", line)
+        expected = f"`end {stack[-1].name}`" if len(stack) > 1 else "a block"
+        raise file_error(path, f"{expected} is expected here, not `{text[:60]}`", line)
     stack.pop()
 
 
 def _whole(path: str | Path, block: Block, name: str) -> int:
     line, text = block.settings.get(name, (block.line, ""))
     if not text.isdecimal():
-        raise wrong(path, f"`{block.name}` needs {name} = a whole number{f', not `{text[:60]}`' if text else ''}", line)
+        raise file_error(path, f"`{block.name}` needs an integer {name}{f', not `{text[:60]}`' if text else ''}", line)
     return int(text)

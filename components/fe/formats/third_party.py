@@ -1,4 +1,4 @@
-"""Files that other packages read: found, read, and their errors told as those of a file."""
+"""Readers of optional packages, with their failures reported as errors of the file."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ import numpy as np
 
 from acausal import DeclarationError
 from acausal.result import shown_name
-from components.fe.formats.text import wrong
+from components.fe.formats.text import file_error
 
 Read = TypeVar("Read")
 
 
-def installed(name: str, extra: str, what: str) -> None:
-    """Refuse what needs a package that is not installed.
+def require_module(name: str, extra: str, what: str) -> None:
+    """Raise an error unless a module is installed.
 
     Parameters
     ----------
     name : str
-        A module.
+        Module.
     extra : str
-        Optional dependencies of acausal that hold it.
+        Optional dependencies of acausal that include the module.
     what : str
-        What needs it, for the message.
+        Task that needs the module, for the message.
 
     Raises
     ------
     DeclarationError
-        With what installs it.
+        If the module is missing; the message has the command that installs it.
     """
     try:
         found = find_spec(name) is not None
@@ -45,18 +45,18 @@ def installed(name: str, extra: str, what: str) -> None:
         )
 
 
-def package(name: str, extra: str, what: str) -> Any:
-    """Return a module of a package that is not always installed, or refuse as `installed` does.
+def optional_module(name: str, extra: str, what: str) -> Any:
+    """Return a module of an optional package, or raise the error of `require_module`.
 
-    How numpy prints stays as the user has it: pyyeti changes it for all, already where its packages are looked through.
+    The print options of numpy are restored because importing pyyeti, and already finding its submodules, changes them.
     """
     with np.printoptions():
-        installed(name, extra, what)
+        require_module(name, extra, what)
         return import_module(name)
 
 
-def existing(path: str | Path, what: str) -> Path:
-    """Return a file that exists, or refuse it."""
+def existing_file(path: str | Path, what: str) -> Path:
+    """Return the path of a file with `~` expanded; raise DeclarationError if there is no such file."""
     found = Path(path).expanduser()
     if not found.is_file():
         why = "it is a directory" if found.is_dir() else "there is no such file"
@@ -64,11 +64,10 @@ def existing(path: str | Path, what: str) -> Path:
     return found
 
 
-def read_by(read: Callable[[], Read], path: str | Path, what: str) -> Read:
-    """Return what a function of another package reads.
+def call_reader(read: Callable[[], Read], path: str | Path, what: str) -> Read:
+    """Call a reader of another package and report its failure as an error of the file.
 
-    Such functions raise anything at files that are not what they expect, end the process, and warn of files that end
-    early; all of it means that the file is wrong.
+    For invalid files such readers raise any exception or exit the process, and for truncated files some only warn.
 
     Parameters
     ----------
@@ -77,12 +76,12 @@ def read_by(read: Callable[[], Read], path: str | Path, what: str) -> Read:
     path : str or Path
         The file, for messages.
     what : str
-        What it is expected to be.
+        Expected kind of file.
 
     Raises
     ------
     DeclarationError
-        If it does not return.
+        If the reader raises an exception, exits or warns.
     """
     try:
         with warnings.catch_warnings():
@@ -92,4 +91,4 @@ def read_by(read: Callable[[], Read], path: str | Path, what: str) -> Read:
     except (Exception, SystemExit) as error:
         text = (str(error).strip().splitlines() or [""])[0].rstrip(". ")[:200]
         why = f"{type(error).__name__}: {text}" if text else type(error).__name__
-        raise wrong(path, f"this is not {what}, or not whole ({why})") from None
+        raise file_error(path, f"this is not {what}, or is truncated ({why})") from None

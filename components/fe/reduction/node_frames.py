@@ -157,7 +157,7 @@ def frames_of(frames: Mapping[str, Any], places: Array, empty: Array, cells: Map
     Raises
     ------
     DeclarationError
-        If a name is not a Python identifier, or a node does not exist, stands twice or has no stiffness.
+        If a name is not a Python identifier, or a node does not exist, occurs twice or has no stiffness.
     """
     if not isinstance(frames, Mapping):
         raise DeclarationError(f'frames must map names to nodes, such as {{"tip": [53]}}, not {frames!r}')

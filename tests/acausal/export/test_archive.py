@@ -165,9 +165,9 @@ def test_a_write_that_is_cut_leaves_the_old_file(built, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("fmi_version", "names", "why"),
     [
-        (1, ["own"], "there is no version 1 of FMI"),
-        ("3", ["own"], "there is no version '3' of FMI"),
-        (3, [], "no platform is given"),
+        (1, ["own"], "fmi_version must be 2 or 3, not 1"),
+        ("3", ["own"], "fmi_version must be 2 or 3, not '3'"),
+        (3, [], "platforms is empty"),
         (3, ["linux-x86"], "there is no platform `linux-x86`; did you mean `linux-x86_64`?"),
         (3, ["musl-x86_64"], "there is no platform `musl-x86_64`"),
         (2, "al", "there is no platform `al`; did you mean `all`? Platforms: own, all, linux-x86_64,"),
@@ -184,9 +184,9 @@ def test_a_platform_without_a_folder(built, tmp_path, monkeypatch):
         check_fmu(tmp_path / "a.fmu", 3, ["own"])
 
 
-def test_no_core_to_make_what_is_exported(built, tmp_path, monkeypatch):
+def test_export_without_core(built, tmp_path, monkeypatch):
     monkeypatch.setattr(platforms, "why_not", lambda runs: "it was not built")
-    with pytest.raises(ExportError, match="by the core of this platform, which is missing: it was not built"):
+    with pytest.raises(ExportError, match="needs the core for this platform, which is missing: it was not built"):
         check_fmu(tmp_path / "a.fmu", 3, ["macos-arm64"])
 
 

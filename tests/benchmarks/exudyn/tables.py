@@ -52,7 +52,7 @@ def show(compared: Compared, markdown: bool) -> None:
     """Print both tables."""
     scene = compared.scene
     apart = ", ".join(f"{name} {value:.1e}" for name, value in compared.apart.items())
-    title = f"{scene.name}: the two references are apart by {apart} of the range"
+    title = f"{scene.name}: the two references differ by {apart} of the range"
     errors = [f"error of {name}" for name in scene.outputs]
     points = ["", "tolerance or step", "ms", "again", *errors, "steps", "factorisations", "evaluations", "method"]
     equal = [

@@ -112,7 +112,7 @@ def test_calculix_by_numbers_of_nodes(tmp_path: Path) -> None:
     ("words", "message"),
     [
         (["lost.npz", *FRAMES], "there is no file"),
-        (["lost", *FRAMES], "there is no file lost; reduce takes matrices"),
+        (["lost", *FRAMES], "there is no file lost; reduce accepts matrices"),
         (["a.npz"], "add --frame NAME=I,J,K"),
         (["a.npz", "--frame", "tip"], "--frame must be NAME=I,J,K"),
         (["a.npz", "--frame", "tip=x"], "--frame tip must list nodes, such as 0,2,4, not `x`"),

@@ -168,8 +168,8 @@ def page() -> Iterator[str]:
     twins = sum(bool(twin(name)) for name in names)
     yield "# Twins of Modelica's classes\n"
     yield "The classes of Modelica.Mechanics.MultiBody, Rotational and Translational in the Modelica Standard Library"
-    yield f"({TAG}), and what stands for them in `components`. Examples, icons, guides, types and internal classes are left out."
-    yield "Written by `python -m tests.reference.msl.twins`; [components.md](components.md#the-library) lists what differs.\n"
+    yield f"({TAG}), and their counterparts in `components`, without examples, icons, guides, types and internal classes."
+    yield "Written by `python -m tests.reference.msl.twins`; [components.md](components.md#the-library) lists the differences.\n"
     left = len(missing())
     yield f"{len(names)} classes: {twins} have a twin, {left} are to come, {len(names) - twins - left} need none."
     for package, inside in groupby(names, key=lambda name: name.rpartition(".")[0]):

@@ -20,18 +20,18 @@ NODES = Nodes(PLAIN, 7 * np.arange(len(PLAIN)) + 5, PLAIN.cells)
 MATERIAL = {"E": 7e10, "nu": 0.33, "rho": 2700}
 WRONG = {
     "empty": ("STIF1", lambda s: "", "the file is empty"),
-    "comments": ("STIF1", lambda s: "** nothing\n", "there is no line of a matrix of Abaqus"),
+    "comments": ("STIF1", lambda s: "** nothing\n", "the file has no lines of a matrix of Abaqus"),
     "foreign": (
         "STIF1",
         lambda s: "hello, world, this is\n",
-        "line 1: a line holds node, freedom, node, freedom, value",
+        "line 1: a line must be node, freedom, node, freedom, value",
     ),
-    "cut": ("STIF1", lambda s: s[:-2], "seems to be cut off"),
+    "cut": ("STIF1", lambda s: s[:-2], "seems to be truncated"),
     "cut_in_a_line": ("MASS1", lambda s: s[: s.rindex(",")], "node, freedom, node, freedom, value"),
     "rotation": ("STIF1", lambda s: s.replace("5,3,", "5,4,", 1), "node 5 has the degree of freedom 4"),
     "internal": ("STIF1", lambda s: s.replace("\n5,3,", "\n-1,3,", 1), "node -1 is an internal node"),
     "other_node": ("STIF1", lambda s: s.replace("\n5,3,", "\n6,3,", 1), "node 6 has equations, but no solid element"),
-    "twice": ("MASS1", lambda s: s + s.splitlines()[1] + "\n", "stands twice"),
+    "twice": ("MASS1", lambda s: s + s.splitlines()[1] + "\n", "occurs twice"),
     "spring": ("STIF1", lambda s: s.replace("5,1, 5,1, ", "5,1, 5,1, 9", 1), "resist rigid-body motions"),
 }
 
@@ -142,7 +142,7 @@ def test_part_and_instance(tmp_path: Path) -> None:
     assert abs(found[1] - turned).max() < 1e-12 * abs(K).max()
     for extra, message in (
         ("*Instance, name=I-2, part=P-1\n*End Instance\n*End Assembly", "several instances"),
-        ("*Node\n1, 0., 0., 0.\n*End Assembly", "stands beside the instance"),
+        ("*Node\n1, 0., 0., 0.\n*End Assembly", "outside the instance makes Abaqus renumber"),
     ):
         (tmp_path / "job.inp").write_text(text.replace("*End Assembly", extra))
         with pytest.raises(DeclarationError, match=message):

@@ -19,12 +19,12 @@ BODY = box((0.1, 0.02, 0.03), (2, 1, 1), "hex8", E=7e10, nu=0.33, rho=2700)
 HEAD = "%%MatrixMarket matrix coordinate real general\n"
 WRONG = {
     "empty": ("K", lambda s: "", "the file is empty"),
-    "foreign": ("K", lambda s: "hello\n", "begins with `%%MatrixMarket"),
-    "half": ("M", lambda s: s[: len(s) // 2], "a line holds row, column, value|the heading says"),
+    "foreign": ("K", lambda s: "hello\n", "must begin with `%%MatrixMarket"),
+    "half": ("M", lambda s: s[: len(s) // 2], "a line must be row, column, value|the header says"),
     "lines_lost": (
         "M",
         lambda s: "".join(s.splitlines(True)[:-7]),
-        r"there are \d+ entries, where the heading says \d+; the file may be cut",
+        r"there are \d+ entries, but the header says \d+; the file may be truncated",
     ),
     "complex": ("K", lambda s: s.replace(" real ", " complex ", 1), "not `coordinate complex symmetric`"),
     "pattern": (
@@ -37,17 +37,17 @@ WRONG = {
     "nan": (
         "nodes",
         lambda s: s[: s.rindex("\n", 0, -1)] + "\nnan\n",
-        "line 39: a line holds value, and `nan` is not a finite number",
+        "line 39: a line must be value, and `nan` is not a finite number",
     ),
-    "outside": ("K", lambda s: f"{HEAD}36 36 1\n1 99 2.0\n", r"an entry stands at \(1, 99\), outside"),
-    "size": ("K", lambda s: f"{HEAD}33 33 1\n1 1 2.0\n", "the matrix is 33 x 33, where 12 nodes have 36 equations"),
-    "more": ("nodes", lambda s: s + "7\n", "there are 37 entries, where the heading says 36"),
-    "sizes": ("K", lambda s: f"{HEAD}36 36\n", "given as 3 whole numbers, not `36 36`"),
-    "no_sizes": ("K", lambda s: HEAD, "given as 3 whole numbers"),
+    "outside": ("K", lambda s: f"{HEAD}36 36 1\n1 99 2.0\n", r"the entry \(1, 99\) is outside"),
+    "size": ("K", lambda s: f"{HEAD}33 33 1\n1 1 2.0\n", "the matrix is 33 x 33, but 12 nodes have 36 equations"),
+    "more": ("nodes", lambda s: s + "7\n", "there are 37 entries, but the header says 36"),
+    "sizes": ("K", lambda s: f"{HEAD}36 36\n", "the size line needs 3 integers, not `36 36`"),
+    "no_sizes": ("K", lambda s: HEAD, "the size line needs 3 integers"),
     "binary": ("K", lambda s: s + "\0", "this is a binary file"),
     "huge": ("K", lambda s: f"{HEAD}3000000000 3000000000 1\n1 1 2.0\n", "the matrix is 3000000000 x"),
     "plane": ("nodes", lambda s: "%%MatrixMarket matrix array real general\n2 2\n1\n2\n3\n4\n", "three columns"),
-    "lost": ("nodes", None, "there is no file bodynodes.mtx beside it"),
+    "lost": ("nodes", None, "neither bodynodes.mtx nor"),
 }
 
 
@@ -120,7 +120,7 @@ def test_wrong_files(tmp_path: Path, case: str) -> None:
 
 
 def test_other_names(tmp_path: Path) -> None:
-    with pytest.raises(DeclarationError, match=r"ends in none of M\.mtx"):
+    with pytest.raises(DeclarationError, match=r"does not end in M\.mtx"):
         read_matrix_market(tmp_path / "stiffness.mtx")
-    with pytest.raises(DeclarationError, match="are three"):
+    with pytest.raises(DeclarationError, match="pass three Matrix Market files"):
         read_matrix_market([tmp_path / "a.mtx", tmp_path / "b.mtx"])

@@ -26,22 +26,22 @@ MAPS = ("place", "displacement", "rotation", "axes")
 WRONG = {
     "empty": (lambda s: "", "the file is empty"),
     "binary": (lambda s: "\0\1" * 50, "this is a binary file"),
-    "foreign": (lambda s: "hello\n", "line 1: a SID has blocks"),
-    "cut": (lambda s: s[: len(s) // 2], "cut off|no finite number|blocks such as|lies outside"),
-    "cut_at_a_line": (lambda s: s[: s.index("         end node")], "the file ends inside of `node`"),
-    "two_bodies": (lambda s: s + s, "one `new modal` inside of `part`, and this file 2"),
-    "no_mass": (lambda s: re.sub(r"\n *mass .*", "", s), "refmod needs mass"),
-    "mass": (lambda s: re.sub(r"mass *= .*", "mass = -1", s), "a body has mass"),
-    "word": (lambda s: re.sub(r"m0\( *1, *1\) = .*", "m0(1,1) = x", s), "is given as `x`, which is no finite number"),
-    "nan": (lambda s: re.sub(r"m0\( *1, *1\) = .*", "m0(1,1) = nan", s), "which is no finite number"),
-    "outside": (lambda s: s.replace("m0(   1,   1)", "m0(   9,   1)", 1), "lies outside of origin, which is 3 x 1"),
-    "zero": (lambda s: s.replace("m0(   1,   1)", "m0(   0,   1)", 1), "lies outside of origin"),
-    "huge": (lambda s: s.replace("nrow         = 3", "nrow = 999999999", 1), "more than a reduced body has"),
-    "rows": (lambda s: s.replace("nrow         = 3", "nrow = x", 1), "needs nrow = a whole number, not `x`"),
+    "foreign": (lambda s: "hello\n", "line 1: a SID block"),
+    "cut": (lambda s: s[: len(s) // 2], "truncated|not a finite number|a SID block|is outside"),
+    "cut_at_a_line": (lambda s: s[: s.index("         end node")], "it ends inside `node`"),
+    "two_bodies": (lambda s: s + s, "one `new modal` inside `part`, but this file has 2"),
+    "no_mass": (lambda s: re.sub(r"\n *mass .*", "", s), "refmod needs the numbers"),
+    "mass": (lambda s: re.sub(r"mass *= .*", "mass = -1", s), "mass must be positive"),
+    "word": (lambda s: re.sub(r"m0\( *1, *1\) = .*", "m0(1,1) = x", s), "is `x`, not a finite number"),
+    "nan": (lambda s: re.sub(r"m0\( *1, *1\) = .*", "m0(1,1) = nan", s), "not a finite number"),
+    "outside": (lambda s: s.replace("m0(   1,   1)", "m0(   9,   1)", 1), "is outside origin, which is 3 x 1"),
+    "zero": (lambda s: s.replace("m0(   1,   1)", "m0(   0,   1)", 1), "is outside origin"),
+    "huge": (lambda s: s.replace("nrow         = 3", "nrow = 999999999", 1), "too large for a reduced body"),
+    "rows": (lambda s: s.replace("nrow         = 3", "nrow = x", 1), "needs an integer nrow, not `x`"),
     "no_block": (lambda s: re.sub(r"      Oe\n.*?end Oe\n", "", s, flags=re.S), "`modal` has 0 blocks `Oe`"),
-    "size": (lambda s: s.replace("nelastq      = 4", "nelastq = 3"), "is .*, where 3 modes need"),
-    "end": (lambda s: s.replace("end phi", "end psi", 1), "`phi` is to end here, not `end psi`"),
-    "ends": (lambda s: s + "end part\n", "nothing has begun"),
+    "size": (lambda s: s.replace("nelastq      = 4", "nelastq = 3"), "is .*, but 3 modes need"),
+    "end": (lambda s: s.replace("end phi", "end psi", 1), "`end phi` is expected here, not `end psi`"),
+    "ends": (lambda s: s + "end part\n", "a block is expected here"),
     "moving": (lambda s: re.sub(r"(tip\n(?:.*\n)*?.*m1\(.*\) =) .*", r"\1 77", s, count=1), "differs from m0 of `phi`"),
 }  # fmt: skip
 
@@ -152,7 +152,7 @@ def test_without_second_order(tmp_path: Path, text: str) -> None:
             lines.append(line)
     path = tmp_path / "first.sid"
     path.write_text("\n".join(lines) + "\n")
-    with pytest.warns(AcausalWarning, match=r"Oe has no M1. .* left out, as by inertia="):
+    with pytest.warns(AcausalWarning, match=r"Oe has no M1. .* omitted, as with inertia="):
         found = read_sid(path)
     assert found.modal_second == pytest.approx(BODY.modal_second, rel=1e-12, abs=1e-18)
     assert np.abs(found.K - BODY.K).max() < 1e-9 * BODY.K.max()
@@ -170,6 +170,6 @@ def test_wrong_files(tmp_path: Path, text: str, case: str) -> None:
 def test_axes_that_are_no_rotation(tmp_path: Path, text: str) -> None:
     path = tmp_path / "turned.sid"
     path.write_text(re.sub(r"(AP\n(?:.*\n){7}.*m0\( *1, *2\) =) .*", r"\1 0.5", text))
-    with pytest.raises(DeclarationError, match=r"AP of node .* is no rotation"):
+    with pytest.raises(DeclarationError, match=r"AP of node .* is not a rotation"):
         read_sid(path)
     assert index_order(path, []) == ORDERS[0]

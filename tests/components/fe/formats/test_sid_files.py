@@ -132,9 +132,9 @@ def stiffened(block: str) -> str:
 
 
 DOUBTS = {
-    "geometric stiffness": ("Oe", stiffened, "as if Oe held geometric stiffness"),
+    "geometric stiffness": ("Oe", stiffened, "Oe seems to include geometric stiffness"),
     "no M1": ("Oe", lambda block: re.sub(r"\n *m1\(.*", "", block), "Oe has no M1"),
-    "another M0": ("Oe", lambda block: re.sub(r"(m0\( *2, *1\)) = .*", r"\1 = 77", block), "M0 of Oe and M1 of J say"),
+    "another M0": ("Oe", lambda block: re.sub(r"(m0\( *2, *1\)) = .*", r"\1 = 77", block), "M0 of Oe and M1 of J are"),
 }
 
 
@@ -142,7 +142,7 @@ DOUBTS = {
 def test_oe_that_disagrees(tmp_path: Path, text: str, case: str) -> None:
     """A warning, and inertia of first order: the same kinetic energy as that of the body itself of first order."""
     name, change, message = DOUBTS[case]
-    with pytest.warns(AcausalWarning, match=f"a.sid: .*{message}.* left out, as by inertia=.first_order") as caught:
+    with pytest.warns(AcausalWarning, match=f"a.sid: .*{message}.* omitted, as with inertia=.first_order") as caught:
         found = read(tmp_path, changed(text, name, change))
     assert caught[0].filename == __file__
     assert not found.second_order

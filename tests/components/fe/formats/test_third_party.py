@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from components.fe.formats.third_party import package
+from components.fe.formats.third_party import optional_module
 
 CHANGE = "import numpy\nnumpy.set_printoptions(legacy='1.13', precision=2)\n"
 
@@ -20,6 +20,6 @@ def test_numbers_are_printed_as_before(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.syspath_prepend(tmp_path)
     with np.printoptions(sign="+", precision=3):
         before = np.get_printoptions()
-        assert package("talkative.reader", "fe", "the test").numpy is np
+        assert optional_module("talkative.reader", "fe", "the test").numpy is np
         assert np.get_printoptions() == before
         assert repr(np.ones(2)) == "array([+1., +1.])"
