@@ -38,6 +38,7 @@ static int holds(const ac_instance *i, int32_t k, double rate) {
     const double value = i->guards[k], width = ac_width(i, k), change = rate * i->of->span;
     const double rounding = ADDED * fmax(1, LATE * fabs(i->now.time) / i->of->span);
     const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(change) * (i->of->guard[k].clocked ? rounding : SOON);
+    if (i->crossed[k] == AC_DUE && fabs(value - i->errors[k]) <= width) return i->errors[i->of->watched + k] > 0;
     if (fabs(change) > MOVES * width && soon && fabs(value) <= width) return change < 0;
     return value == 0 ? i->truth[k] > 0 : value < 0;
 }
@@ -98,12 +99,13 @@ static int32_t search_mode(ac_instance *i, const round_of *r) {
     return AC_OK;
 }
 
-static int32_t look_at_conditions(ac_instance *i, round_of *r) {
+static int32_t look_at_conditions(ac_instance *i, round_of *r, int first) {
     const ac_unit *u = i->of;
     const double *rate = i->guards + 2 * u->watched;
     int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
     for (int32_t k = 0; k < u->watched; k++) {
+        if (first) i->errors[k] = i->guards[k], i->errors[u->watched + k] = !(i->truth[k] > 0);
         i->other[k] = holds(i, k, rate[k]);
         r->flips |= u->guard[k].on >= 0 && i->other[k] != i->truth[k];
     }
@@ -191,7 +193,7 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         for (int32_t k = 0; k < u->switches; k++) r.on[k] = i->c[k];
         memset(r.fires, 0, ((size_t)u->watched + (size_t)u->timed) * sizeof *r.fires);
         if (!round) look_at_clock(i, &r);
-        failed = look_at_conditions(i, &r);
+        failed = look_at_conditions(i, &r, !round);
         if (failed || !r.changes) break;
         found->changed = 1;
         failed = apply(i, &r, &found->states);

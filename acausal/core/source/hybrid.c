@@ -14,6 +14,7 @@
                            of all that moves in the step; not where it is that many rounding errors of the time away, or fewer */
 #define ROUNDINGS 1000
 #define SHORTER 8       /* times as far as that event */
+#define DUE 1e-6        /* of a run: an indicator that falls to 0 within that time may do so now */
 #define WINDOW 32       /* steps of a closed loop, refused ones too: where they bring less than this part of the most that so many ... */
 #define CREEPS 1e-3     /* ... brought it forward, and more than this part of them is refused, twice in a row, ... */
 #define OFTEN 0.15      /* ... unknowns grow without end: of n-four-bar at 1e-7, 19 to 48 % are */
@@ -39,7 +40,7 @@ static int32_t begin(ac_instance *i, double to) {
     const ac_unit *u = i->of;
     const ac_model *m = &u->parts.model;
     const double ahead = isfinite(i->now.stop) && i->now.stop > i->now.time ? i->now.stop : i->now.time + AHEAD * u->span;
-    const double horizon = u->inputs ? to : fmax(to, ahead);
+    const double horizon = u->inputs || !ac_states(i) ? to : fmax(to, ahead);
     const int32_t goes_on = i->now.integrates, damps = i->now.damping > 0;
     i->ends[0] = goes_on ? i->now.to : i->now.time;
     if (!goes_on) i->now.end = fmin(horizon, i->now.next);
@@ -158,6 +159,23 @@ static int is_early(const ac_instance *i) {
     return !i->now.looked && ahead < EARLY * h && ahead > ROUNDINGS * DBL_EPSILON * fabs(i->now.event);
 }
 
+/* Where the equations lead no farther, a condition that is about to hold does so at once: it may switch them. */
+static int is_due(ac_instance *i) {
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, m = i->of->watched;
+    const double *value = i->guards, *rate = i->guards + 2 * m;
+    int due = 0;
+    if (!m || ac_indicator_rates(i)) return 0;
+    for (int32_t k = 0; k < m; k++) {
+        const double side = i->truth[k] > 0 ? -1 : 1, falls = -side * rate[k];
+        i->crossing[k] = falls > 0 && side * value[k] <= DUE * falls * i->of->span ? AC_DUE : 0;
+        due |= i->crossing[k] > 0;
+    }
+    if (!due) return 0;
+    ac_put(i->event_y, i->x, nx), ac_put(i->event_y + nx, i->z, nz);
+    i->now.event = i->now.from = i->now.to = i->now.time, i->now.curved = 1, i->now.integrates = 0, i->now.delay = 0;
+    return 1;
+}
+
 /* Check an accepted step, and locate the first event in it. */
 static int32_t check(ac_instance *i) {
     const double time = i->now.time;
@@ -171,6 +189,10 @@ static int32_t check(ac_instance *i) {
         if (ac_is_unfit(i)) i->now.integrates = 0;
     }
     ac_stand(i, time);
+    /* Beyond an event equations may have no solution, and conditions no value. */
+    if (failed == AC_RETRY && i->now.to - i->now.from > ROUNDINGS * DBL_EPSILON * fabs(time)) {
+        shorter = (i->now.to - i->now.from) / 2, failed = AC_OK;
+    }
     i->now.looked = !failed && !(shorter > 0);
     if (shorter > 0) i->now.longer = shorter, i->now.event = INFINITY;
     /* A step that could not be checked is not taken. */
@@ -188,7 +210,8 @@ static int32_t step(ac_instance *i, double to, double *left) {
     }
     if (i->recorder) ac_hold(i);
     if (!failed) failed = advance(i, left);
-    return failed ? failed : check(i);
+    if (!failed) failed = check(i);
+    return failed && failed != AC_PAUSE && failed != AC_EXCHANGE && is_due(i) ? AC_OK : failed;
 }
 
 /* Move within the last step. */

@@ -38,8 +38,8 @@ struct ac_recorder {
 enum { AC_RUN_END, AC_RUN_FULL, AC_RUN_PAUSED, AC_RUN_EVENT, AC_RUN_DOUBT, AC_RUN_UNFIT };
 
 /* Reasons of doubt, beside those of `ac_rodas_go`: closed loops are in a singular configuration, or creep towards one; algebraic unknowns
-   jump. */
-enum { AC_SINGULAR = 16, AC_FOLD };
+   jump; a condition has no value. */
+enum { AC_SINGULAR = 16, AC_FOLD, AC_UNDEFINED };
 
 /* Take an instance to a consistent point, from which it runs with a first step, chosen if 0; `truth`: which watched conditions hold.
    `damping`, `tolerance`: as of the settings. */
