@@ -17,10 +17,10 @@
 
 /* States and guesses of algebraic unknowns at a time within the last step. */
 void ac_stand(ac_instance *i, double time) {
-    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz;
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz, rows = i->stepper->method->rows;
     const double h = i->now.to - i->now.from, s = h > 0 ? fmin((time - i->now.from) / h, 1) : 1;
-    ac_interpolate(n, i->before, i->after, i->dense, s, 0, nx, i->x);
-    ac_interpolate(n, i->before, i->after, i->dense, s, nx, nz, i->z);
+    ac_interpolate(n, rows, i->before, i->after, i->dense, s, 0, nx, i->x);
+    ac_interpolate(n, rows, i->before, i->after, i->dense, s, nx, nz, i->z);
     i->now.time = time;
     ac_moved(i);
 }
@@ -50,7 +50,7 @@ static int32_t begin(ac_instance *i, double to) {
         memcpy(i->after + ac_states(i), i->z, (size_t)m->equations.nz * sizeof *i->z);
         i->now.looked = i->now.taken = 0, i->now.last = 0;
     }
-    ac_rodas_begin(i->rodas, &request, y, y + ac_states(i), i->p, i->c);
+    ac_stepper_begin(i->stepper, &request, y, y + ac_states(i), i->p, i->c);
     if (goes_on) {
         i->rodas->h = i->now.first_step;
         i->rodas->begun = 1, i->rodas->pace = i->now.pace;
@@ -68,7 +68,7 @@ static void go_back(ac_instance *i) {
     ac_stand(i, i->now.to);
     const double *w = ac_run(i, AC_COORDINATES);
     for (int32_t k = 0; k < u->tape[AC_COORDINATES].outputs; k++) i->after[u->coordinate[k]] = w[u->tape[AC_COORDINATES].output[k]];
-    ac_rodas_move(i->rodas, i->after, i->after + ac_states(i));
+    ac_stepper_move(i->stepper, i->after, i->after + ac_states(i));
 }
 
 /* Whether one more step may be tried. */
@@ -85,11 +85,11 @@ static int32_t advance(ac_instance *i, double *left) {
         "there is not enough memory.",
     };
     const size_t n = (size_t)ac_states(i) + (size_t)i->of->parts.model.equations.nz;
-    const ac_progress begun = i->rodas->progress;
+    const ac_progress begun = i->stepper->progress;
     ac_progress done = {0};
     int32_t end = AC_MORE, may = 1;
     go_back(i);
-    while (end == AC_MORE && !done.kept && (may = may_step(i, left))) end = ac_rodas_go(i->rodas, 1, &done);
+    while (end == AC_MORE && !done.kept && (may = may_step(i, left))) end = ac_stepper_go(i->stepper, 1, &done);
     if (done.steps + done.refused) {
         i->counts.steps += done.steps - begun.steps, i->counts.refused += done.refused - begun.refused;
         i->counts.values += done.values - begun.values;

@@ -111,12 +111,13 @@ struct ac_instance {
     ac_now now;
     size_t saved;                           /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
-    double *before, *after, *dense;         /* interpolant: (n), (n), (3, n); in Model Exchange the last point that was kept, its rates */
+    double *before, *after, *dense;         /* interpolant: (n), (n), (AC_DENSE_ROWS, n); in Model Exchange the last point that was kept, its rates */
     double *sure;                           /* x and z of the last point at which z was solved for */
     double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
     ac_rodas *rodas;
+    ac_stepper *stepper;                    /* of the run */
     double *looks;                          /* values, rates and levels of indicators at the end of the last step; rates of states at its ends */
     double *least, *width, *peak;           /* of indicators: levels of what was not positive, tolerance bands, greatest values since the last event */
     ac_samples samples;

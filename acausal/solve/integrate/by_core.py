@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.compiler.core_equations import core_equations
-from acausal.core import Curve, End, Rodas
+from acausal.core import Curve, End, Stepper
 from acausal.policy import POLICY
 from acausal.solve.initialization.independent_constraints import IndependentConstraints
 from acausal.solve.integrate.branches import first_jump
@@ -50,7 +50,7 @@ class ByCore(Integration):
         self._window, self._stride, self._crept = (0, 0, at.time), 0.0, 0
         self._again: ByCore | None = None
         self._looks = POLICY.calls.few
-        self._rodas = Rodas(equations)
+        self._rodas = Stepper(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
             **error_test(problem, request.settings, damps),
