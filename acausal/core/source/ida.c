@@ -51,9 +51,11 @@ static struct { FUNCTIONS(MEMBER) } ida;
 #define NAME(result, name, arguments) #name,
 static const char *const names[] = {FUNCTIONS(NAME) NULL};
 
-enum { ONE_STEP = 2 };
+enum { ONE_STEP = 2, STOPPED = 1 };
 enum { TOO_MUCH_ACCURACY = -2, ERROR_TEST = -3, SETUP = -6, MEMORY = -21, ILL_INPUT = -22 };
 #define NO_ITERATION 1e200 /* tolerance of GMRES, with which it takes the preconditioned residual as it is */
+
+#define MOST_SHORT 64 /* steps in a row that the time does not show, as after a start late in a run, where they double */
 
 typedef struct {
     ac_stepper s; /* first */
@@ -62,6 +64,7 @@ typedef struct {
     N_Vector y, yp, size, within; /* size: absolute tolerances, before: whether unknowns are states */
     double *matrix, cj;           /* cj: of the matrix whose factors stand in the LU */
     int begun, order;             /* order: of the last step */
+    double origin, from, time;    /* where it began; since then: the ends of the last step, as times late in a run are coarse */
     int64_t refused;              /* steps before the last restart */
     long errors, unsolved;        /* of those since, by the error test, and as the equations could not be solved */
     int32_t why;                  /* the last one was refused, as of AC_SHORT or AC_UNSOLVED */
@@ -79,7 +82,7 @@ static int residual(double t, N_Vector y, N_Vector yp, N_Vector rv, void *data) 
     ac_ida *i = data;
     const double *rate = array(yp);
     double *r = array(rv);
-    ac_equations_at(&i->s, array(y), t, r);
+    ac_equations_at(&i->s, array(y), i->origin + t, r);
     for (int32_t k = 0; k < i->s.n; k++) r[k] = (k < i->s.of.nx ? rate[k] : 0) - r[k];
     return !ac_all_finite(r, i->s.n);
 }
@@ -89,7 +92,7 @@ static int setup(double t, N_Vector y, N_Vector yp, N_Vector r, double cj, void 
     const ac_equations *e = &i->s.of;
     const ac_tape *tape = e->slopes;
     (void)yp, (void)r, (void)a, (void)b, (void)c;
-    ac_evaluate(&i->s, tape, i->s.slopes, array(y), t);
+    ac_evaluate(&i->s, tape, i->s.slopes, array(y), i->origin + t);
     for (int32_t k = 0; k < e->start[i->s.n]; k++) i->matrix[k] = -i->s.slopes[tape->output[k]];
     for (int32_t k = 0; k < e->nx; k++) i->matrix[e->diagonal[k]] += cj;
     i->cj = cj;
@@ -154,13 +157,14 @@ static int start(ac_ida *i) {
     memset(rate + nx, 0, nz * sizeof *rate);
     for (int32_t k = 0; k < s->n; k++) size[k] = q->tolerance * q->size[k];
     i->refused = s->progress.refused, i->errors = i->unsolved = 0, i->why = AC_SHORT;
-    TRY(ida.IDAReInit(i->mem, s->t, i->y, i->yp));
+    i->origin = s->t, i->time = 0;
+    TRY(ida.IDAReInit(i->mem, 0, i->y, i->yp));
     TRY(ida.IDASVtolerances(i->mem, q->tolerance, i->size));
     TRY(ida.IDASetMaxOrd(i->mem, q->order));
     TRY(ida.IDASetInitStep(i->mem, q->first_step));
     TRY(ida.IDASetNonlinConvCoef(i->mem, q->newton));
     i->begun = 1;
-    return ida.IDASetStopTime(i->mem, ac_end(s)); /* dropped where it is reached */
+    return ida.IDASetStopTime(i->mem, ac_end(s) - s->t); /* dropped where it is reached */
 }
 
 static int32_t reason(int flag) {
@@ -172,22 +176,32 @@ static int32_t reason(int flag) {
     }
 }
 
-static int32_t advance(ac_stepper *s) {
-    ac_ida *i = (ac_ida *)s;
-    double time = s->t;
+/* Count what IDA has refused since it was started. */
+static void count(ac_ida *i) {
     int64_t counts[4];
     long errors = 0, unsolved = 0;
-    int flag = i->begun ? 0 : start(i);
-    if (flag >= 0) flag = ida.IDASolve(i->mem, ac_end(s), &time, i->y, i->yp, ONE_STEP);
     ida.IDAGetNumErrTestFails(i->mem, &errors), ida.IDAGetNumNonlinSolvConvFails(i->mem, &unsolved);
-    ida.IDAGetLastOrder(i->mem, &i->order);
-    ac_lu_counts(i->lu, counts);
     if (errors > i->errors || unsolved > i->unsolved) i->why = unsolved > i->unsolved ? AC_UNSOLVED : AC_SHORT;
     i->errors = errors, i->unsolved = unsolved;
-    s->progress.refused = i->refused + errors + unsolved;
-    s->progress.pivots = counts[0];
+    i->s.progress.refused = i->refused + errors + unsolved;
+    ac_lu_counts(i->lu, counts);
+    i->s.progress.pivots = counts[0];
+}
+
+/* A step, or several where they are too short for the time to show it: IDA goes on without an end where steps are rounding. */
+static int32_t advance(ac_stepper *s) {
+    ac_ida *i = (ac_ida *)s;
+    int flag = i->begun ? 0 : start(i);
+    double time = s->t;
+    for (int tries = 0; flag >= 0 && time <= s->t && tries < MOST_SHORT; tries++) {
+        i->from = i->time;
+        flag = ida.IDASolve(i->mem, ac_end(s) - i->origin, &i->time, i->y, i->yp, ONE_STEP);
+        count(i);
+        time = flag == STOPPED ? ac_end(s) : i->origin + i->time;
+    }
     if (flag < 0) return reason(flag);
-    if (time <= s->t) return i->why; /* IDA goes on without an end where steps are rounding */
+    if (time <= s->t) return i->why;
+    ida.IDAGetLastOrder(i->mem, &i->order);
     memcpy(s->next, array(i->y), (size_t)s->n * sizeof *s->next);
     ac_accept(s, time, time - s->t);
     return AC_DONE;
@@ -204,7 +218,7 @@ static void interpolate(ac_stepper *s) {
     memset(l->dense, 0, AC_DENSE_ROWS * n * sizeof *l->dense);
     for (int j = 0; j < m; j++) {
         const double part = (j + 1.) / (m + 1);
-        ida.IDAGetDky(i->mem, l->from + part * l->length, 0, i->within);
+        ida.IDAGetDky(i->mem, i->from + part * (i->time - i->from), 0, i->within);
         for (size_t k = 0; k < n; k++) {
             l->dense[(size_t)j * n + k] = (y[k] - (1 - part) * l->before[k] - part * l->after[k]) / (part * (1 - part));
         }
