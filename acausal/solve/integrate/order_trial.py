@@ -44,8 +44,9 @@ def _patience(integrator: Integrator, times: np.ndarray) -> int:
 
 
 def doubt(integrator: Integrator, times: np.ndarray) -> int:
-    """Steps for an output interval after which the order limit is in doubt."""
-    return min(_patience(integrator, times), max(ORDER.fewest, ORDER.doubt // (len(times) - 1)))
+    """Return the steps for an output interval after which the order limit is in doubt."""
+    cheap = int(ORDER.cheap * _stable(integrator, times))
+    return min(_patience(integrator, times), max(ORDER.fewest, cheap, ORDER.doubt // (len(times) - 1)))
 
 
 def settle(integrator: Integrator, at: Point, times: np.ndarray) -> tuple[Point, np.ndarray]:
@@ -117,12 +118,12 @@ def choose(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | None:
 
 
 def _through(integrator: Integrator, at: Point, times: np.ndarray, size: int, most: int) -> tuple[Point, np.ndarray]:
-    """Integrate through the next output times, if no refusal stops it; at most so many steps for each."""
+    """Integrate through the next output times, as far as no refusal stops it; at most so many steps for each."""
     part = times[: size + 1]
     if not size:
         return at, times
-    found = integrator.attempt(at, part, replace(integrator.way, max_steps=most, gentle=True))
-    return _kept(integrator, at, times, found if isinstance(found, Leg) else None)
+    found = integrator.attempt(at, part, replace(integrator.way, max_steps=most, gentle=True), keep=True)
+    return _kept(integrator, at, times, found.reached if isinstance(found, Refusal) else found)
 
 
 def _tried(integrator: Integrator, at: Point, times: np.ndarray, way: Way) -> tuple[Leg | Refusal, int]:
