@@ -72,6 +72,7 @@ class RequestData(Structure):
         ("largest", c_int32),
         ("singular", c_int32),
         ("most", c_int64),
+        ("share", c_int32),
         ("outputs", c_int32),
         *((name, c_void_p) for name in ("time", "x", "z", "integral", "taken")),
         ("room", c_int32),
@@ -126,7 +127,7 @@ FUNCTIONS = {
     "ac_instance_make": (c_void_p, (c_void_p,)),
     "ac_instance_free": (None, (c_void_p,)),
     "ac_message": (c_char_p, (c_void_p,)),
-    "ac_run_begin": (None, (c_void_p, c_double, c_double, c_double, c_int32, *[c_void_p] * 5)),
+    "ac_run_begin": (c_int32, (c_void_p, c_void_p, c_double, *[c_void_p] * 5)),
     "ac_run_go": (c_int32, (c_void_p, c_void_p, c_void_p)),
     "ac_run_values": (None, (c_void_p,) * 7),
 }

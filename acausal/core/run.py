@@ -26,6 +26,20 @@ class Back(IntEnum):
     DOUBT = 4
 
 
+class MethodData(Structure):
+    """Method of a run, see `ac_run_method` and `ac_multistep` in the core."""
+
+    _fields_ = (
+        ("method", c_int32),
+        ("damps", c_int32),
+        ("tolerance", c_double),
+        ("step", c_double),
+        ("size", c_void_p),
+        ("newton", c_double),
+        ("order", c_int32),
+    )
+
+
 class RequestData(Structure):
     """Request for a slice, see `ac_run_request` in hybrid.h."""
 
@@ -48,9 +62,28 @@ class RunState(Structure):
         ("step", c_double),
         ("supplied", c_double),
         ("dissipated", c_double),
-        *((name, c_int64) for name in ("steps", "refused", "values", "evaluations", "begun")),
+        *((name, c_int64) for name in ("steps", "refused", "factors", "values", "evaluations", "begun")),
         *((name, c_int32) for name in ("rows", "events", "hasty", "why", "weak")),
     )
+
+
+@dataclass(frozen=True)
+class Multistep:
+    """Settings of IDAS.
+
+    Attributes
+    ----------
+    size : array, shape (nx + nz,)
+        Sizes of states and algebraic unknowns in the error test and in Newton iterations.
+    order : int
+        Highest order.
+    newton : float
+        Part of the tolerance that Newton iterations may leave.
+    """
+
+    size: np.ndarray
+    order: int
+    newton: float
 
 
 @dataclass(frozen=True)
@@ -126,7 +159,8 @@ class Run:
         *,
         step: float,
         tolerance: float,
-        damps: bool,
+        damps: bool = False,
+        multistep: Multistep | None = None,
     ) -> None:
         """Begin at a consistent point.
 
@@ -139,15 +173,21 @@ class Run:
         mode : array of bool
             Which watched conditions hold.
         step : float
-            First step in s; chosen if 0.
+            First step in s, of IDAS the longest one; chosen if 0.
         tolerance : float
             Relative tolerance.
-        damps : bool
-            Whether vibrations are damped that coordinates do not show.
+        damps : bool, optional
+            Whether Rodas5P damps vibrations that coordinates do not show.
+        multistep : Multistep, optional
+            Settings of IDAS, if it integrates in place of Rodas5P.
         """
         given = [np.ascontiguousarray(a, dtype=float) for a in (x, z, p, c, mode)]
-        self.state = RunState(time=time, step=step)
-        self._library.ac_run_begin(self._memory, time, step, tolerance, damps, *map(address, given))
+        self.state, method = RunState(time=time, step=step), MethodData(0, damps, tolerance, step)
+        if multistep:
+            self._size = np.ascontiguousarray(multistep.size, dtype=float)  # the library keeps its address
+            method = MethodData(1, False, tolerance, step, address(self._size), multistep.newton, multistep.order)
+        if self._library.ac_run_begin(self._memory, byref(method), time, *map(address, given)):
+            raise MemoryError
 
     def go(self, outputs: np.ndarray, end: float, *, leaves: bool, steps: int, longest: int = 2**62) -> Rows:
         """Run one slice towards an end; the interpreter lock is released meanwhile.

@@ -23,7 +23,7 @@ class End(IntEnum):
 
     At its last output; after the steps it was given; with too many between two outputs; by step size underflow, of the error
     test (`SHORT`) or as the equations had no value or no regular Jacobian (`UNSOLVED`); without memory; as the tolerance is
-    below round-off.
+    below round-off. Of a run alone: closed loops passed a singular configuration.
     """
 
     DONE = 0
@@ -33,6 +33,7 @@ class End(IntEnum):
     UNSOLVED = 4
     MEMORY = 5
     ROUNDING = 6
+    FLAT = 7
 
 
 @dataclass(frozen=True)
@@ -96,6 +97,7 @@ class Stepper:
         largest: bool = False,
         singular: bool = False,
         most: int = 2**62,
+        share: int = 1,
         room: int = 0,
         curves: bool = False,
         order: int = 5,
@@ -127,6 +129,8 @@ class Stepper:
             are solved where a step ends does not count then.
         most : int, optional
             Steps between two outputs.
+        share : int, optional
+            Number of outputs that share these steps.
         room : int, optional
             Most steps that are kept, see `steps`.
         curves : bool, optional
@@ -151,7 +155,7 @@ class Stepper:
         places = map(address, (times, *written))
         kept = map(address, self._steps)
         request = RequestData(
-            *(tolerance, first_step, address(size), address(chosen), smooth, largest, singular, most, n),
+            *(tolerance, first_step, address(size), address(chosen), smooth, largest, singular, most, share, n),
             *(*places, room, *kept, order, newton),
         )
         # The library keeps the addresses of these, too.

@@ -14,13 +14,13 @@ import casadi as ca
 import numpy as np
 
 from acausal.core.equations import Equations, make_equations
-from acausal.core.library import loaded
+from acausal.core.library import loaded, why_not
 from acausal.core.stepper import End, Stepper
 
 FILE = {"win32": "libcasadi_integrator_idas.dll", "darwin": "libcasadi_integrator_idas.dylib"}.get(
     sys.platform, "libcasadi_integrator_idas.so"
 )
-REMEDY = 'take method="rosenbrock" or "auto"'
+REMEDY = 'take method="rosenbrock" or "auto", without max_order'
 
 
 def idas(equations: Equations) -> Stepper:
@@ -39,6 +39,8 @@ def idas(equations: Equations) -> Stepper:
 @cache
 def why_no_idas() -> str:
     """Return why IDAS cannot be used, empty if it can."""
+    if why := why_not():
+        return f"the core is missing: {why}"
     try:
         library = ctypes.CDLL(str(path()))
         # One handle resolves all names: wheels hold each library twice, under two names.

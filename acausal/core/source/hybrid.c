@@ -37,9 +37,9 @@ static int32_t begin(ac_instance *i, double to) {
     i->ends[1] = fmin(to, i->now.end), i->ends[2] = i->now.end;
     const ac_request request = {
         .tolerance = i->now.tolerance, .first_step = goes_on ? i->now.first_step : i->now.longer, .rate = m->rate,
-        .size = damps ? u->damped : m->size, .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
-        .most = INT64_MAX / 4, .outputs = i->ends[1] < i->ends[2] ? 2 : 1, .time = i->ends, .room = 1,
-        .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense,
+        .size = i->multistep.size ? i->multistep.size : damps ? u->damped : m->size, .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
+        .most = INT64_MAX / 4, .share = 1, .outputs = i->ends[1] < i->ends[2] ? 2 : 1, .time = i->ends, .room = 1,
+        .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense, .order = i->multistep.order, .newton = i->multistep.newton,
     };
     const double *y = i->after;
     if (!goes_on) {
@@ -82,7 +82,7 @@ static int may_step(ac_instance *i, double *left) {
 static int32_t advance(ac_instance *i, double *left) {
     static const char *const why[] = {
         "", "", "", "no step is short enough for the tolerance.", "the equations have no solution beyond.",
-        "there is not enough memory.",
+        "there is not enough memory.", "the tolerance is smaller than rounding errors.",
     };
     const size_t n = (size_t)ac_states(i) + (size_t)i->of->parts.model.equations.nz;
     const ac_progress begun = i->stepper->progress;
@@ -92,7 +92,7 @@ static int32_t advance(ac_instance *i, double *left) {
     while (end == AC_MORE && !done.kept && (may = may_step(i, left))) end = ac_stepper_go(i->stepper, 1, &done);
     if (done.steps + done.refused) {
         i->counts.steps += done.steps - begun.steps, i->counts.refused += done.refused - begun.refused;
-        i->counts.values += done.values - begun.values;
+        i->counts.values += done.values - begun.values, i->counts.factors += done.factors - begun.factors;
     }
     if (!may && i->recorder && i->recorder->left < 0) return AC_PAUSE;
     if (!may && i->recorder) i->recorder->state->why = AC_MANY;
@@ -109,9 +109,14 @@ static int32_t advance(ac_instance *i, double *left) {
     return AC_OK;
 }
 
+static int32_t fail_flat(ac_instance *i) {
+    if (i->recorder) i->recorder->state->why = AC_FLAT;
+    return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+}
+
 /* Whether loops passed a singular configuration in the last step. */
 static int32_t refuse_flat(ac_instance *i) {
-    if (!i->of->levels) return AC_OK;
+    if (!i->of->levels || i->stepper->method->iterates) return AC_OK;
     const int32_t nx = ac_states(i);
     double *rates = i->looks + 3 * i->of->watched;
     int32_t failed = AC_OK;
@@ -119,12 +124,12 @@ static int32_t refuse_flat(ac_instance *i) {
     for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
         ac_stand(i, end ? i->now.to : i->now.from);
         failed = ac_know(i, AC_RATE);
-        if (failed && ac_is_flat(i)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+        if (failed && ac_is_flat(i)) return fail_flat(i);
         memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
     }
     const ac_point a = {i->now.from, i->before, rates}, b = {i->now.to, i->after, rates + nx};
     if (failed || !ac_flat(i, &a, &b)) return failed;
-    return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+    return fail_flat(i);
 }
 
 /* Whether an event comes so early in the first step that a shorter one has to locate it. */

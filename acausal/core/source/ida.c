@@ -9,6 +9,7 @@
 #include "file.h"
 #include "lu.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,6 +56,7 @@ enum { ONE_STEP = 2, STOPPED = 1 };
 enum { TOO_MUCH_ACCURACY = -2, ERROR_TEST = -3, SETUP = -6, MEMORY = -21, ILL_INPUT = -22 };
 #define NO_ITERATION 1e200 /* tolerance of GMRES, with which it takes the preconditioned residual as it is */
 
+#define FIRST 1e-3 /* of the way to the end: the longest first step, as IDA has it */
 #define MOST_SHORT 64 /* steps in a row that the time does not show, as after a start late in a run, where they double */
 
 typedef struct {
@@ -62,6 +64,7 @@ typedef struct {
     void *mem;
     ac_lu *lu;
     N_Vector y, yp, size, within; /* size: absolute tolerances, before: whether unknowns are states */
+    double *shift;                /* (n) of the states since it was started: what IDA integrates is y less that */
     double *matrix, cj;           /* cj: of the matrix whose factors stand in the LU */
     int begun, order;             /* order: of the last step */
     double origin, from, time;    /* where it began; since then: the ends of the last step, as times late in a run are coarse */
@@ -77,12 +80,19 @@ void ac_ida_load(void *const *address) { memcpy(&ida, address, sizeof ida); }
 
 static double *array(N_Vector v) { return ida.N_VGetArrayPointer(v); }
 
+/* The unknowns that belong to those of IDA. */
+static void shifted(const ac_ida *i, N_Vector own, double *y) {
+    const double *from = array(own);
+    for (int32_t k = 0; k < i->s.n; k++) y[k] = from[k] + i->shift[k];
+}
+
 /* What returns 1 is tried again with a shorter step. */
 static int residual(double t, N_Vector y, N_Vector yp, N_Vector rv, void *data) {
     ac_ida *i = data;
     const double *rate = array(yp);
     double *r = array(rv);
-    ac_equations_at(&i->s, array(y), i->origin + t, r);
+    shifted(i, y, i->s.work);
+    ac_equations_at(&i->s, i->s.work, i->origin + t, r);
     for (int32_t k = 0; k < i->s.n; k++) r[k] = (k < i->s.of.nx ? rate[k] : 0) - r[k];
     return !ac_all_finite(r, i->s.n);
 }
@@ -92,7 +102,8 @@ static int setup(double t, N_Vector y, N_Vector yp, N_Vector r, double cj, void 
     const ac_equations *e = &i->s.of;
     const ac_tape *tape = e->slopes;
     (void)yp, (void)r, (void)a, (void)b, (void)c;
-    ac_evaluate(&i->s, tape, i->s.slopes, array(y), i->origin + t);
+    shifted(i, y, i->s.work);
+    ac_evaluate(&i->s, tape, i->s.slopes, i->s.work, i->origin + t);
     for (int32_t k = 0; k < e->start[i->s.n]; k++) i->matrix[k] = -i->s.slopes[tape->output[k]];
     for (int32_t k = 0; k < e->nx; k++) i->matrix[e->diagonal[k]] += cj;
     i->cj = cj;
@@ -146,6 +157,20 @@ static int make(ac_ida *i) {
     return ida.IDASpilsSetEpsLin(i->mem, NO_ITERATION);
 }
 
+/* The first step as IDA chooses it, and no longer than the request has it. */
+static double first_step(const ac_ida *i) {
+    const ac_stepper *s = &i->s;
+    const ac_request *q = &s->request;
+    const double *size = array(i->size), *rate = array(i->yp), most = FIRST * (ac_end(s) - s->t);
+    double sum = 0;
+    for (int32_t k = 0; k < s->of.nx; k++) {
+        const double change = rate[k] / (q->tolerance * fabs(s->y[k]) + size[k]);
+        sum += change * change;
+    }
+    const double own = fmin(most, 0.5 / sqrt(sum / s->n));
+    return q->first_step > 0 ? fmin(own, q->first_step) : own;
+}
+
 /* Begin at the present, with the rates of the states that the equations give; those of algebraic unknowns are predicted as 0. */
 static int start(ac_ida *i) {
     ac_stepper *s = &i->s;
@@ -153,6 +178,7 @@ static int start(ac_ida *i) {
     const size_t nx = (size_t)s->of.nx, nz = (size_t)s->of.nz;
     double *size = array(i->size), *rate = array(i->yp);
     memcpy(array(i->y), s->y, (nx + nz) * sizeof(double));
+    memset(i->shift, 0, (nx + nz) * sizeof(double));
     ac_equations_at(s, s->y, s->t, rate);
     memset(rate + nx, 0, nz * sizeof *rate);
     for (int32_t k = 0; k < s->n; k++) size[k] = q->tolerance * q->size[k];
@@ -161,7 +187,7 @@ static int start(ac_ida *i) {
     TRY(ida.IDAReInit(i->mem, 0, i->y, i->yp));
     TRY(ida.IDASVtolerances(i->mem, q->tolerance, i->size));
     TRY(ida.IDASetMaxOrd(i->mem, q->order));
-    TRY(ida.IDASetInitStep(i->mem, q->first_step));
+    TRY(ida.IDASetInitStep(i->mem, first_step(i)));
     TRY(ida.IDASetNonlinConvCoef(i->mem, q->newton));
     i->begun = 1;
     return ida.IDASetStopTime(i->mem, ac_end(s) - s->t); /* dropped where it is reached */
@@ -202,7 +228,7 @@ static int32_t advance(ac_stepper *s) {
     if (flag < 0) return reason(flag);
     if (time <= s->t) return i->why;
     ida.IDAGetLastOrder(i->mem, &i->order);
-    memcpy(s->next, array(i->y), (size_t)s->n * sizeof *s->next);
+    shifted(i, i->y, s->next);
     ac_accept(s, time, time - s->t);
     return AC_DONE;
 }
@@ -214,11 +240,12 @@ static void interpolate(ac_stepper *s) {
     const ac_last_step *l = &s->last;
     const int m = i->order - 1;
     const size_t n = (size_t)s->n;
-    const double *y = array(i->within);
+    double *y = s->work;
     memset(l->dense, 0, AC_DENSE_ROWS * n * sizeof *l->dense);
     for (int j = 0; j < m; j++) {
         const double part = (j + 1.) / (m + 1);
         ida.IDAGetDky(i->mem, i->from + part * (i->time - i->from), 0, i->within);
+        shifted(i, i->within, y);
         for (size_t k = 0; k < n; k++) {
             l->dense[(size_t)j * n + k] = (y[k] - (1 - part) * l->before[k] - part * l->after[k]) / (part * (1 - part));
         }
@@ -237,7 +264,14 @@ static void interpolate(ac_stepper *s) {
     }
 }
 
-static void forget(ac_stepper *s) { ((ac_ida *)s)->begun = 0; }
+static void begin(ac_stepper *s) { ((ac_ida *)s)->begun = 0; }
+
+/* A small correction moves all past values alike: differences of these are what IDA goes on with. */
+static void move(ac_stepper *s) {
+    ac_ida *i = (ac_ida *)s;
+    const double *own = array(i->y);
+    for (int32_t k = 0; k < s->n; k++) i->shift[k] = s->y[k] - own[k];
+}
 
 static void renew(ac_stepper *s) { ac_lu_renew(((ac_ida *)s)->lu); }
 
@@ -251,14 +285,14 @@ static void free_own(ac_stepper *s) {
     ac_lu_free(i->lu);
 }
 
-static const ac_method METHOD = {AC_DENSE_ROWS, forget, advance, interpolate, forget, renew, free_own};
+static const ac_method METHOD = {AC_DENSE_ROWS, 1, begin, advance, interpolate, move, renew, free_own};
 
 ac_stepper *ac_ida_make(const ac_equations *equations) {
     ac_ida *i = ida.IDACreate ? calloc(1, sizeof *i) : NULL;
     if (!i) return NULL;
     const ac_equations *e = equations;
     const long n = (long)e->nx + e->nz;
-    double *at = ac_stepper_take(&i->s, &METHOD, e, 4 * (size_t)n + (size_t)e->start[n] + 1);
+    double *at = ac_stepper_take(&i->s, &METHOD, e, 5 * (size_t)n + (size_t)e->start[n] + 1);
     i->lu = ac_lu_make(i->s.n, e->start, e->row);
     i->mem = ida.IDACreate();
     N_Vector *vectors[] = {&i->y, &i->yp, &i->size, &i->within};
@@ -268,6 +302,6 @@ ac_stepper *ac_ida_make(const ac_equations *equations) {
         ac_stepper_free(&i->s);
         return NULL;
     }
-    i->matrix = at;
+    i->shift = at, i->matrix = at + n;
     return &i->s;
 }

@@ -82,7 +82,7 @@ ac_instance *ac_instance_make(const ac_unit *unit) {
 void ac_instance_free(ac_instance *i) {
     if (!i) return;
     for (int k = 0; k < AC_SQUARES; k++) ac_settler_free(i->settler[k]);
-    ac_stepper_free((ac_stepper *)i->rodas);
+    ac_stepper_free((ac_stepper *)i->rodas), ac_stepper_free(i->idas);
     free(i->block);
     free(i);
 }

@@ -101,9 +101,16 @@ typedef struct {
     int32_t solved[AC_ROWS];
 } ac_samples;
 
-/* Counts of steps, refused ones, evaluations of the equations, of parts of them, and integrations that were begun. */
+/* Request of a multistep method, as of `ac_request`: size, which has to stay, is NULL for another method. */
 typedef struct {
-    int64_t steps, refused, values, evaluations, begun;
+    const double *size;
+    double newton;
+    int32_t order;
+} ac_multistep;
+
+/* Counts of steps, refused ones, factorisations, evaluations of the equations, of parts of them, and integrations that were begun. */
+typedef struct {
+    int64_t steps, refused, factors, values, evaluations, begun;
 } ac_counts;
 
 struct ac_instance {
@@ -117,7 +124,8 @@ struct ac_instance {
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
     ac_rodas *rodas;
-    ac_stepper *stepper;                    /* of the run */
+    ac_stepper *idas, *stepper;             /* idas: NULL until a run asks for it; stepper: the one of the run */
+    ac_multistep multistep;
     double *looks;                          /* values, rates and levels of indicators at the end of the last step; rates of states at its ends */
     double *least, *width, *peak;           /* of indicators: levels of what was not positive, tolerance bands, greatest values since the last event */
     ac_samples samples;

@@ -260,7 +260,7 @@ static void free_factors(ac_stepper *s) {
     for (int k = 0; k < KEPT; k++) ac_lu_free(((ac_rodas *)s)->kept[k]);
 }
 
-static const ac_method METHOD = {AC_RODAS_ROWS, begin, advance, interpolate, move, renew, free_factors};
+static const ac_method METHOD = {AC_RODAS_ROWS, 0, begin, advance, interpolate, move, renew, free_factors};
 
 ac_rodas *ac_rodas_make(const ac_equations *equations) {
     ac_rodas *r = calloc(1, sizeof *r);

@@ -133,6 +133,7 @@ static void write(ac_stepper *s) {
     const size_t nx = (size_t)s->of.nx, nz = (size_t)s->of.nz;
     int32_t *written = &s->progress.written;
     const int due = q->time[*written + 1] <= s->t;
+    const int32_t before = *written / q->share;
     double from = 0;
     if (due || s->of.powers || q->step_dense) s->method->interpolate(s);
     for (; *written < q->outputs && q->time[*written + 1] <= s->t; ++*written) {
@@ -148,7 +149,7 @@ static void write(ac_stepper *s) {
         }
     }
     if (s->of.powers && from < 1) gather(s, from, 1);
-    if (due) s->written_at = s->progress.steps;
+    if (*written / q->share > before) s->written_at = s->progress.steps;
 }
 
 /* Keep where the last step ended. */

@@ -12,15 +12,15 @@
 
 /* Request for one integration. */
 struct ac_request {
-    double tolerance, first_step;  /* first step 0: chosen by the method */
+    double tolerance, first_step;  /* first step: of a multistep method the longest one; 0: chosen by the method */
     const double *size;            /* (nx) sizes of the states in the error test; of a multistep method (nx + nz) */
     const int32_t *rate;           /* (nx) whether a state is a rate of another one; NULL: none is */
     int32_t smooth;                /* whether vibrations that a step does not resolve are left out of the error of rates */
     int32_t largest;               /* whether the largest error of a state counts, not their root mean square */
     int32_t singular;              /* whether positions of closed loops may be passed at which unknowns grow without end: what steps
                                       leave of the algebraic equations is not looked at then */
-    int64_t most;                  /* steps between two outputs */
-    int32_t outputs;
+    int64_t most;                  /* steps between two outputs, of those that do not share them */
+    int32_t share, outputs;        /* share: so many outputs share these steps */
     const double *time;            /* (1 + outputs) start and output times, ascending; no step goes beyond the last one */
     double *x, *z, *integral;      /* (outputs, ...) what is found; NULL: nothing is written */
     double *taken;                 /* (outputs) steps up to each, with the part of its own; NULL: not written */
@@ -56,6 +56,7 @@ typedef struct ac_stepper ac_stepper;
 /* A method. */
 typedef struct {
     int32_t rows;                        /* coefficients of its interpolant, over a value */
+    int32_t iterates;                    /* whether Newton iterations solve each step, which keep to a solution of the equations */
     void (*begin)(ac_stepper *s);        /* at s->t, s->y; nothing is computed yet */
     int32_t (*advance)(ac_stepper *s);   /* try a step: AC_DONE: accepted, see ac_accept; AC_MORE: refused; or why it ended */
     void (*interpolate)(ac_stepper *s);  /* find s->last.dense */

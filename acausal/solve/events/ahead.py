@@ -15,7 +15,6 @@ from acausal.solve.initialization.initial_modes import origins_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
 from acausal.solve.integrate.march import March
-from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage
 from acausal.solve.integrate.trace import Leg
@@ -80,7 +79,7 @@ class Ahead:
 
     def look(self, at: Point, end: float) -> Found:
         """Integrate some way towards the end of a segment, and look for an event there."""
-        if METHODS[self.integrator.way.method].marches and self.integrator.compiled.nx:
+        if self.integrator.compiled.nx:
             return self._marched(at, end)
         integrator = self.integrator
         grid = integrator.next_call(at, self.stride.grid(at.time, end))[0]

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from acausal.compiler.core_equations import core_equations
 from acausal.compiler.runtime import decides
-from acausal.core import Back, Run, library
+from acausal.core import Back, End, Run
 from acausal.core import Rows as Recorded
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
-from acausal.solve.integrate.ladder import Way
+from acausal.solve.integrate.ladder import Kind, Refusal, Way, next_ways
 from acausal.solve.integrate.methods import METHODS
-from acausal.solve.integrate.one_step import at_once
+from acausal.solve.integrate.one_step import at_once, multistep_settings
 from acausal.solve.integrate.stored import run_file
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
@@ -85,6 +85,10 @@ class Hybrid:
         if run.state.time <= at.time and back in (Back.END, Back.DOUBT):
             return None
         x, z, c, mode, peak, crossed = run.values()
+        if run.state.why == End.FLAT and self._takes_next(way, Refusal(Kind.FLAT, run.state.time)):
+            return self._since_last_event(found, at, mode)
+        if self._is_worn(found, at) and self._takes_next(way, Refusal(Kind.WORN, at.time)):
+            return Passed([], at, [], None, weak, np.zeros(2))
         self.ahead.begin(run.state.step)
         self.ahead.locator.passed = np.maximum(self.ahead.locator.passed, peak)
         point = Point(run.state.time, x, z, self.integrator.compiled.layout.constants(c), mode)
@@ -105,8 +109,14 @@ class Hybrid:
         except InitializationError:
             return False
         run = self._run(at, way)
-        how = {"step": self.ahead.step, "tolerance": way.tolerance, "damps": METHODS[way.method].damps}
-        run.begin(at.time, at.x, at.z, integrator.problem.p, at.constants.vector, at.mode, **how)
+        method, problem = METHODS[way.method], integrator.problem
+        how = (
+            multistep_settings(problem, integrator.settings, way, integrator.rounding(at)) if method.multistep else None
+        )
+        run.begin(
+            *(at.time, at.x, at.z, problem.p, at.constants.vector, at.mode),
+            **{"step": self.ahead.step, "tolerance": way.tolerance, "damps": method.damps, "multistep": how},
+        )
         run.state.weak, self._worked = weak, np.zeros(2)
         return True
 
@@ -127,13 +137,39 @@ class Hybrid:
     def _counts(run: Run) -> np.ndarray:
         """Return the numbers of steps, factorisations, residual evaluations and restarts."""
         state = run.state
-        return np.array([state.steps, state.steps + state.refused, state.values, state.begun])
+        return np.array([state.steps, state.factors, state.values, state.begun])
 
     def _longest(self, way: Way) -> int:
         """Return the largest number of steps between outputs, or the number after which vibrations are damped instead."""
         settings = self.integrator.settings
+        if METHODS[way.method].multistep:
+            return settings.patience(way, self.times)
         ringing = settings.first(way, self.times[[0, -1]]).ringing
         return ringing.steps if ringing and settings.rings(ringing.interval) else way.max_steps
+
+    def _is_worn(self, found: Recorded, at: Point) -> bool:
+        """Return whether the states chosen for closed loops became unfit in a slice."""
+        rows = Rows(found.times, found.x, found.z, found.c)
+        return len(rows) > 0 and self.integrator.is_worn(rows, at.constants)
+
+    def _takes_next(self, way: Way, refusal: Refusal) -> bool:
+        """Go on in the next way after a refusal; return whether there is one."""
+        following = next_ways(way, refusal, self.integrator.settings.rescues(self.times, True))
+        if following:
+            self.integrator.take(following[0], refusal)
+            self._wait, self._next = 0, 1
+            self.ahead.begin()
+        return bool(following)
+
+    def _since_last_event(self, found: Recorded, at: Point, mode: np.ndarray) -> Passed:
+        """Go back to the last event of a slice, or to its start: no method can begin near a singular configuration."""
+        n = int(np.searchsorted(found.times, found.events[-1], side="right")) if len(found.events) else 0
+        kept = (part[:n] for part in (found.times, found.x, found.z, found.c, found.work))
+        times, x, z, c, work = kept
+        legs = self._legs(replace(found, times=times, x=x, z=z, c=c, work=work))
+        if legs:
+            at = replace(legs[0].end(at), mode=mode)
+        return Passed(legs, at, found.events.tolist(), None, 0, np.zeros(2))
 
     def _legs(self, found: Recorded) -> list[Leg]:
         """Return the recorded rows as legs of the trace."""
@@ -147,16 +183,16 @@ class Hybrid:
         """Return whether the core runs the model; independent subsets of redundant constraints are selected in Python."""
         integrator = self.integrator
         compiled = integrator.compiled
-        if not library() or not METHODS[way.method].marches or not compiled.nx:
+        if not compiled.nx:
             return False
-        return not integrator.loops or (way.moves and at.constants.all_count)
+        return not integrator.loops or bool(at.constants.all_count)
 
     def _run(self, at: Point, way: Way) -> Run:
         """Return the run, created anew if the configuration has changed."""
         if self._made is None or self._made[0] is not way:
             integrator = self.integrator
             c, problem = integrator.compiled, integrator.problem
-            content = run_file(problem, integrator.settings, at, way.tolerance)
+            content = run_file(problem, integrator.settings, at, way)
             sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched)
             room = min(SAMPLING.rows, 4 + SAMPLING.numbers // sum(sizes[:3]))
             self._made = way, Run(content, sizes, room)

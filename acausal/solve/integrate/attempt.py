@@ -110,11 +110,11 @@ class Integrator:
 
     def next_call(self, at: Point, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the times of the next call, and the rest, see `Reach`."""
-        return self.reach.parts(self.problem, at, times, METHODS[self.way.method].marches)
+        return self.reach.parts(self.problem, at, times, not METHODS[self.way.method].multistep)
 
     def lasted(self, time: float) -> None:
         """Note for how long in s the constraints that are kept lasted in a call."""
-        self.reach.lasted(time, METHODS[self.way.method].marches)
+        self.reach.lasted(time, not METHODS[self.way.method].multistep)
 
     def restarted(self, at: Point, moves: bool) -> Point:
         """Return a point where the constraints hold, with a projection that suits the position.
@@ -181,14 +181,14 @@ class Integrator:
             at = self.restarted(at, way.moves)
         except InitializationError:
             return Refusal(Kind.UNSOLVABLE, at.time)
-        looked_at = self.loops and not (way.moves and (at.constants.all_count or METHODS[way.method].marches))
-        parts = -(-POLICY.calls.fine // (len(times) - 1)) if looked_at else 1
+        looked_at = self.loops and not way.moves
+        parts = share = -(-POLICY.calls.fine // (len(times) - 1)) if looked_at else 1
         works = works and self.settings.energy
         if works and not c.powers.is_zero():
             more = max(1, -(-POLICY.energy.rows // ((len(times) - 1) * parts)))
             parts, way = parts * more, way.shared(more)
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
-        request = Request(self.problem, self.settings, way, at, times, works, self.rounding(at))
+        request = Request(self.problem, self.settings, way, at, times, works, self.rounding(at), share=share)
         started, made = clock.perf_counter(), memo_seconds(c)
         try:
             integration = METHODS[way.method].prepare(request)

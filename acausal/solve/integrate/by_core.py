@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.compiler.core_equations import core_equations
-from acausal.core import Curve, End, Stepper
+from acausal.core import Curve, End, Stepper, idas
 from acausal.policy import POLICY
 from acausal.solve.initialization.independent_constraints import IndependentConstraints
 from acausal.solve.integrate.branches import first_jump
@@ -16,60 +16,76 @@ from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
-from acausal.solve.integrate.one_step import at_once, error_test
+from acausal.solve.integrate.one_step import at_once, error_test, multistep_settings
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.problem import Problem
 
-REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
+REFUSALS = {
+    End.MANY: Kind.STEPS,
+    End.SHORT: Kind.ERROR_TEST,
+    End.UNSOLVED: Kind.CORRECTOR,
+    End.ROUNDING: Kind.ROUNDING,
+}
 
 
 class ByCore(Integration):
-    """Integration by the one-step method of the core.
+    """Integration by a stepper of the core.
 
     Parameters
     ----------
     request : Request
         What it is asked for.
-    damps : bool
-        Whether it sees rates only as far as they change coordinates, see `sizes`; else errors of rates count, but for
+    damps : bool, optional
+        Whether Rodas5P sees rates only as far as they change coordinates, see `sizes`; else errors of rates count, but for
         vibrations that its steps do not resolve. Then, loops that may pass a flat position are left to another method;
         where it damps, it tells that they passed one.
+    multistep : bool, optional
+        Whether IDAS integrates, whose Newton iteration keeps to the motion in flat positions.
     """
 
-    def __init__(self, request: Request, damps: bool) -> None:
+    def __init__(self, request: Request, damps: bool = False, multistep: bool = False) -> None:
         self.request = request
         problem, way, at = request.problem, request.way, request.at
         equations = core_equations(problem.compiled, request.works, way.moves)
         self._at_once = at_once(equations)
         most = max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps
-        self._ringing = None if damps else way.ringing
+        self._ringing = None if damps or multistep else way.ringing
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
+        self._multistep = multistep
         self.ended, self._keeps = False, loops or request.curves
         self._window, self._stride, self._crept = (0, 0, at.time), 0.0, 0
         self._again: ByCore | None = None
         self._looks = POLICY.calls.few
-        self._rodas = Stepper(equations)
-        self._found = self._rodas.begin(
+        self._stepper = idas(equations) if multistep else Stepper(equations)
+        settings = request.settings
+        if multistep:
+            test = vars(multistep_settings(problem, settings, way, request.floor))
+        else:
+            test = error_test(problem, settings, damps)
+        self._found = self._stepper.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
-            **error_test(problem, request.settings, damps),
+            **test,
             tolerance=way.tolerance,
             first_step=min(request.first_step, request.span),
             room=POLICY.calls.steps if self._keeps else 0,
             curves=request.curves,
             most=min(most, self._ringing.steps) if self._ringing else most,
+            share=request.share,
         )
 
     @property
     def counts(self) -> tuple[int, int, int]:
         """Steps, factorisations and evaluations of the equations so far."""
-        done = self._rodas.progress
-        return done.steps, done.steps + done.refused, done.values
+        done = self._stepper.progress
+        return done.steps, done.factors, done.values
 
     def follows(self) -> bool:
-        """Whether residuals between steps are small, and their Jacobian did not become singular."""
-        done, (tolerances, most) = self._rodas.progress, POLICY.calls.left
+        """Return whether residuals between steps are small and their Jacobian stayed regular, as by Newton iterations."""
+        if self._multistep:
+            return True
+        done, (tolerances, most) = self._stepper.progress, POLICY.calls.left
         return done.left <= min(tolerances * self.request.way.tolerance, most) and not done.turned
 
     def jump(self, consistent: Consistent) -> float | None:
@@ -91,7 +107,7 @@ class ByCore(Integration):
     @property
     def reached(self) -> float:
         """Time in s after the last step."""
-        return self._rodas.progress.time
+        return self._stepper.progress.time
 
     @property
     def taken(self) -> np.ndarray | None:
@@ -110,20 +126,20 @@ class ByCore(Integration):
         steps = min(steps, self._at_once) if self._keeps else steps
         if not self.request.at.constants.all_count:
             steps, self._looks = min(steps, self._looks), 2 * self._looks
-        if self._returns and self._rodas.progress.steps:
+        if self._returns and self._stepper.progress.steps:
             self._return()
-        end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
+        end, time = self._stepper.go(steps, self._at_once), self._stepper.progress.time
         self.ended = end == End.DONE
         if end == End.MANY and self._ringing:
             rings = self.request.settings.rings(self._ringing.interval)
-            self._rodas.allow(self._ringing.steps if rings else self.request.way.max_steps)
+            self._stepper.allow(self._ringing.steps if rings else self.request.way.max_steps)
             self._ringing, end = None, End.MORE
         held = self._held() if self._loops else None
         if held and (unfit := unfit_time(held, self.request.times[0])) is not None:
             return Refusal(Kind.UNFIT, unfit)
         if held and self._damps:
             self.flat = flat_time(*self._last_steps) if self.flat is None else self.flat
-        elif held and (
+        elif (held and not self._multistep) and (
             passes_flat(held)
             or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))
             or (end == End.MORE and self._creeps())
@@ -134,13 +150,13 @@ class ByCore(Integration):
     @property
     def curve(self) -> Curve:
         """The motion in the last steps."""
-        return self._rodas.curve
+        return self._stepper.curve
 
     def _return(self) -> None:
         """Go on from where the constraints have the states: errors that lead away from there would add up."""
-        time, x, z = self._rodas.last
+        time, x, z = self._stepper.last
         there = self.request.problem.projected(replace(self.request.at, time=time, x=x, z=z))
-        self._rodas.move(there.x, there.z)
+        self._stepper.move(there.x, there.z)
 
     def _held(self) -> IndependentConstraints:
         """The constraints of loops at the last steps."""
@@ -152,7 +168,7 @@ class ByCore(Integration):
 
         Once, that may be a long step that is shortened to what begins to move.
         """
-        done, calls, (steps, refused, time) = self._rodas.progress, POLICY.calls, self._window
+        done, calls, (steps, refused, time) = self._stepper.progress, POLICY.calls, self._window
         taken, again, forward = done.steps - steps, done.refused - refused, done.time - time
         if taken + again < calls.window:
             return False
@@ -163,9 +179,9 @@ class ByCore(Integration):
 
     @property
     def _last_steps(self) -> tuple[Problem, np.ndarray, np.ndarray, Constants]:
-        return self.request.problem, *self._rodas.steps, self.request.at.constants
+        return self.request.problem, *self._stepper.steps, self.request.at.constants
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""
         found = self._found
-        return self.request.leg(found.x, found.z, found.integral, self._rodas.progress.steps)
+        return self.request.leg(found.x, found.z, found.integral, self._stepper.progress.steps)

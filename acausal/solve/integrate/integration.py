@@ -39,6 +39,8 @@ class Request:
         Step in s with which to begin, where one is known; else 0.
     curves : bool
         Whether the motion between steps is looked at, in place of outputs.
+    share : int
+        Number of outputs that share the steps of the way.
     """
 
     problem: Problem
@@ -50,6 +52,7 @@ class Request:
     floor: np.ndarray
     first_step: float = 0.0
     curves: bool = False
+    share: int = 1
 
     @property
     def span(self) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any, TypeVar
@@ -123,28 +122,6 @@ def accepted(found: Found | Refusal) -> Found:
     if isinstance(found, Refusal):
         raise Failure.of(found)
     return found
-
-
-def read(said: str, begin: float, end: float) -> Refusal:
-    """Read a refusal from the message of IDAS, such as `At t = 0.5 and h = 1e-9, the error test failed repeatedly`.
-
-    Parameters
-    ----------
-    said : str
-        Its words; time counts from 0 to 1.
-    begin, end : float
-        Ends of the leg in s.
-    """
-    found = re.search(r"At t = ([-+.\deE]+)", said)
-    time = begin + float(found[1]) * (end - begin) if found else begin
-    words = {
-        "mxstep": Kind.STEPS,
-        "corrector": Kind.CORRECTOR,
-        "error test": Kind.ERROR_TEST,
-        "too much accuracy": Kind.ROUNDING,
-    }
-    kind = next((kind for word, kind in words.items() if word in said), Kind.OTHER)
-    return Refusal(kind, float(time))
 
 
 @dataclass(frozen=True)

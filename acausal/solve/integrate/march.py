@@ -56,7 +56,8 @@ class March:
             *(integrator.problem, integrator.settings, self._way, start, outputs, False),
             *(integrator.rounding(start), first_step, True),
         )
-        self._integration = ByCore(request, METHODS[way.method].damps)
+        method = METHODS[way.method]
+        self._integration = ByCore(request, method.damps, method.multistep)
         self._counted = np.zeros(4, dtype=int)
 
     def goes_on(self, at: Point, end: float) -> bool:

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from acausal.core import Equations
+from acausal.core import Equations, Multistep
 from acausal.policy import POLICY
-from acausal.solve.integrate.integration import Request
+from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.problem import Problem
 
@@ -46,7 +46,7 @@ def are_rates(problem: Problem) -> np.ndarray:
 
 
 def error_test(problem: Problem, settings: Settings, damps: bool) -> dict[str, Any]:
-    """Return how the core tests the error of a step: what `Rodas.begin` takes as size, rate, smooth, largest and singular.
+    """Return how the core tests the error of a step: what `Stepper.begin` takes as size, rate, smooth, largest and singular.
 
     Parameters
     ----------
@@ -63,12 +63,27 @@ def error_test(problem: Problem, settings: Settings, damps: bool) -> dict[str, A
     return {"size": size, "rate": are_rates(problem), "smooth": not damps, "largest": damps, "singular": singular}
 
 
+def multistep_settings(problem: Problem, settings: Settings, way: Way, floor: np.ndarray) -> Multistep:
+    """Return the settings of IDAS; algebraic unknowns do not count in its error test.
+
+    Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular configuration of
+    a loop they are enlarged.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    settings : Settings
+        How the run is to be integrated.
+    way : Way
+        How this leg is.
+    floor : array
+        Errors that rounding causes, see `rounding`.
+    """
+    newton = CALLS.newton_in_loops if problem.compiled.constraints.size else CALLS.newton
+    return Multistep(np.maximum(settings.nominal, floor / way.tolerance), settings.order(way), newton)
+
+
 def at_once(equations: Equations) -> int:
     """Return how many steps of the core take some hundredths of a second, for which an interrupt may wait."""
     return max(1, CALLS.at_once // (equations.values.size + equations.slopes.size))
-
-
-def first_step(request: Request) -> float:
-    """Return a first step that the fastest vibration resolves, as a fraction of the leg; 0 where there is none."""
-    fastest = request.settings.spectrum.fastest
-    return min(CALLS.first, 10.0 ** -np.ceil(np.log10(fastest * request.span))) if fastest > 0 else 0.0

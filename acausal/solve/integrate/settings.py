@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Rescues, Ringing, Way
 from acausal.solve.integrate.order import Spectrum, order_limit
@@ -79,9 +78,8 @@ class Settings:
     @property
     def way(self) -> Way:
         """The way to begin with."""
-        # Steps of the core are long, and states that are chosen once wear out.
-        by_core = self.methods[0] != "idas" and library() is not None
-        moves = self.constraints == "projection" or (self.constraints == "auto" and by_core)
+        # A projection that moves would excite vibrations of elastic parts, which IDAS follows.
+        moves = self.constraints == "projection" or (self.constraints == "auto" and self.methods[0] != "idas")
         return Way(self.methods[0], moves, self.tolerance, RESCUE.long)
 
     @property

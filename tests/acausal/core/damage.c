@@ -107,7 +107,7 @@ static int refused(const unsigned char *bytes, size_t length) {
     double time[OUTPUTS + 1], integral[2 * OUTPUTS], *x = calloc(OUTPUTS * (nx + nz) + 1, sizeof *x);
     for (int k = 0; k <= OUTPUTS; k++) time[k] = m->time + 1e-3 * k;
     const ac_request request = {
-        .tolerance = 1e-4, .size = m->size, .rate = m->rate, .smooth = 1, .most = STEPS, .outputs = OUTPUTS,
+        .tolerance = 1e-4, .size = m->size, .rate = m->rate, .smooth = 1, .most = STEPS, .share = 1, .outputs = OUTPUTS,
         .time = time, .x = x, .z = x + OUTPUTS * nx, .integral = integral,
     };
     ac_progress done;

@@ -48,7 +48,7 @@ static int replay(const ac_model *m, double span, int32_t outputs, double tolera
         for (size_t k = 0; k < nx + nz; k++) size[k] = k < nx ? m->size[k] : 1;
         for (size_t k = 0; k <= n; k++) time[k] = m->time + span * (double)k / (double)outputs;
         const ac_request request = {
-            .tolerance = tolerance, .size = size, .rate = m->rate, .smooth = 1, .most = MOST, .outputs = outputs,
+            .tolerance = tolerance, .size = size, .rate = m->rate, .smooth = 1, .most = MOST, .share = 1, .outputs = outputs,
             .time = time, .x = x, .z = z, .integral = integral, .order = 5, .newton = 0.05,
         };
         ac_progress done;
