@@ -29,10 +29,10 @@ class Order:
     # Steps for all outputs together, and for one, after which a limit that may be wrong is in doubt: ten times the trial.
     doubt: int = 20_000
     fewest: int = 40
-    # Parts of a run on which both limits are tried, parts after which they are tried again (free vibration at four
-    # tolerances, four lengths: at most 16 % above the better limit, 26 % with 200 and 4), and by how much the highest order
-    # must win (free vibration at 1e-6: 6 times, at 1e-4 it loses; the pendulum gets cheap with order 2).
-    heads: int = 400
+    # Parts of a run on which both limits are tried, parts after which they are tried again (free vibration at 1e-6 and 400
+    # intervals: on a 400th, the start of order 5 costs more than its steps, and order 2 wins), and by how much the highest
+    # order must win (free vibration at 1e-6: 6 times, at 1e-4 it loses; the pendulum gets cheap with order 2).
+    heads: int = 200
     chunks: int = 3
     gain: int = 3
     # Order 2 with fewer steps for an output than so many times those with which the highest order is stable is not in doubt: a
