@@ -116,20 +116,10 @@ class Calls:
     # vibrations, which then cost steps; near a singular configuration of a loop they are enlarged.
     newton: float = 0.05
     newton_in_loops: float = 0.005
-    # First step of the one-step method, as a fraction of the call; that of a gentle call of the other changes states by
-    # this fraction of the tolerance.
-    first: float = 1e-2
-    gentle: float = 0.1
     # Operations of the core before Python looks for an interrupt, some hundredths of a second: 10 evaluations a step.
     at_once: int = 3_000_000
-    # Digits to which two relative grids are the same integrator.
-    digits: int = 12
     # Of the time, and of the run: a call that begins so near the last row goes on from it.
     here: float = 1e-9
-    # States and algebraic unknowns from which `csparse` is left. Spin-up of 40, 80, 160, 320 and 500 volumes (632, 1272,
-    # 2552, 5112 and 7992 unknowns), 20 s at 1e-4: 36, 33, 31, 33 and 32 steps with both; qr took 0.02, 0.03, 0.1, 1 and
-    # 1 s, csparse 0.02, 0.04, 0.1, 40 and 160 s or more.
-    large: int = 2000
 
 
 @dataclass(frozen=True)

@@ -160,12 +160,8 @@ class Integrator:
         return bool(np.any(projection_cosine(self.problem, some, constants) < least_cosine(self.problem)))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Leg | Refusal:
-        """Integrate in the current way, carefully where that fails; without works, and through jumps."""
-        way = replace(self.way, max_steps=max_steps)
-        found = self.attempt(at, times, way, works=False, leaps=True)
-        if isinstance(found, Refusal):
-            found = self.attempt(at, times, replace(way, careful=True), works=False, leaps=True)
-        return found
+        """Integrate in the current way, without works and through jumps."""
+        return self.attempt(at, times, replace(self.way, max_steps=max_steps), works=False, leaps=True)
 
     def attempt(
         self, at: Point, times: np.ndarray, way: Way, works: bool = True, keep: bool = False, leaps: bool = False

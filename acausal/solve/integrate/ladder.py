@@ -43,10 +43,8 @@ class Way:
         Steps after which to give up.
     order : int or None
         Highest order of the multistep method; None for the limit of the run.
-    gentle : bool
-        Whether to begin with a short step.
     careful : bool
-        The same, and to factorise without reusing earlier pivots.
+        Whether quicker ways were refused: what comes next are the other methods, then larger tolerances.
     ringing : Ringing or None
         Whether and when vibrations count as in the way.
     """
@@ -56,7 +54,6 @@ class Way:
     tolerance: float
     max_steps: int
     order: int | None = None
-    gentle: bool = False
     careful: bool = False
     ringing: Ringing | None = None
 

@@ -68,7 +68,7 @@ def settle(integrator: Integrator, at: Point, times: np.ndarray) -> tuple[Point,
     for wait in (head, 0):
         if len(times) == 1:
             return at, times
-        way = replace(integrator.way, max_steps=doubt(integrator, times), gentle=not wait)
+        way = replace(integrator.way, max_steps=doubt(integrator, times))
         found = integrator.attempt(at, times, way, keep=True)
         at, times = _kept(integrator, at, times, found.reached if isinstance(found, Refusal) else found)
         if isinstance(found, Leg) or found.kind is not Kind.STEPS:
@@ -97,9 +97,8 @@ def choose(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | None:
     Leg or None
         What was integrated on the way, if the limit stays.
     """
-    # Amid vibrations, values that are consistent at the first order are hard to find: begin with a short step.
     low, high = integrator.settings.max_order, ORDER.highest
-    before = replace(integrator.way, order=integrator.order, gentle=True)
+    before = replace(integrator.way, order=integrator.order)
     patience = _patience(integrator, times)
     found, work = _tried(integrator, at, times, replace(before, max_steps=patience))
     gain = ORDER.gain if before.order == low else 1
@@ -122,7 +121,7 @@ def _through(integrator: Integrator, at: Point, times: np.ndarray, size: int, mo
     part = times[: size + 1]
     if not size:
         return at, times
-    found = integrator.attempt(at, part, replace(integrator.way, max_steps=most, gentle=True), keep=True)
+    found = integrator.attempt(at, part, replace(integrator.way, max_steps=most), keep=True)
     return _kept(integrator, at, times, found.reached if isinstance(found, Refusal) else found)
 
 
