@@ -20,32 +20,22 @@ typedef int solve_fn(double, N_Vector, N_Vector, N_Vector, N_Vector, N_Vector, d
 typedef int product_fn(double, N_Vector, N_Vector, N_Vector, N_Vector, N_Vector, double, void *, N_Vector, N_Vector);
 typedef void message_fn(int, const char *, const char *, char *, void *);
 
-#define FUNCTIONS(_)                                                     \
-    _(N_Vector, N_VMake_Serial, (long, double *))                        \
-    _(void, N_VDestroy, (N_Vector))                                      \
-    _(double *, N_VGetArrayPointer, (N_Vector))                          \
-    _(void *, IDACreate, (void))                                         \
-    _(int, IDAInit, (void *, residual_fn *, double, N_Vector, N_Vector)) \
-    _(int, IDAReInit, (void *, double, N_Vector, N_Vector))              \
-    _(int, IDASVtolerances, (void *, double, N_Vector))                  \
-    _(int, IDASetId, (void *, N_Vector))                                 \
-    _(int, IDASetSuppressAlg, (void *, int))                             \
-    _(int, IDASetMaxOrd, (void *, int))                                  \
-    _(int, IDASetInitStep, (void *, double))                             \
-    _(int, IDASetNonlinConvCoef, (void *, double))                       \
-    _(int, IDASetStopTime, (void *, double))                             \
-    _(int, IDASetUserData, (void *, void *))                             \
-    _(int, IDASetErrHandlerFn, (void *, message_fn *, void *))           \
-    _(int, IDASpgmr, (void *, int))                                      \
-    _(int, IDASpilsSetPreconditioner, (void *, setup_fn *, solve_fn *))  \
-    _(int, IDASpilsSetJacTimesVecFn, (void *, product_fn *))             \
-    _(int, IDASpilsSetEpsLin, (void *, double))                          \
-    _(int, IDASolve, (void *, double, double *, N_Vector, N_Vector, int)) \
-    _(int, IDAGetDky, (void *, double, int, N_Vector))                   \
-    _(int, IDAGetLastOrder, (void *, int *))                             \
-    _(int, IDAGetNumErrTestFails, (void *, long *))                      \
-    _(int, IDAGetNumNonlinSolvConvFails, (void *, long *))               \
-    _(void, IDAFree, (void **))
+#define FUNCTIONS(_)                                                                                           \
+    _(N_Vector, N_VMake_Serial, (long, double *))                                                              \
+    _(void, N_VDestroy, (N_Vector)) _(double *, N_VGetArrayPointer, (N_Vector))                                \
+    _(void *, IDACreate, (void)) _(void, IDAFree, (void **))                                                   \
+    _(int, IDAInit, (void *, residual_fn *, double, N_Vector, N_Vector))                                       \
+    _(int, IDAReInit, (void *, double, N_Vector, N_Vector))                                                    \
+    _(int, IDASVtolerances, (void *, double, N_Vector)) _(int, IDASetId, (void *, N_Vector))                   \
+    _(int, IDASetSuppressAlg, (void *, int)) _(int, IDASetMaxOrd, (void *, int))                               \
+    _(int, IDASetInitStep, (void *, double)) _(int, IDASetNonlinConvCoef, (void *, double))                    \
+    _(int, IDASetStopTime, (void *, double)) _(int, IDASetUserData, (void *, void *))                          \
+    _(int, IDASetErrHandlerFn, (void *, message_fn *, void *))                                                 \
+    _(int, IDASpgmr, (void *, int)) _(int, IDASpilsSetPreconditioner, (void *, setup_fn *, solve_fn *))        \
+    _(int, IDASpilsSetJacTimesVecFn, (void *, product_fn *)) _(int, IDASpilsSetEpsLin, (void *, double))       \
+    _(int, IDASolve, (void *, double, double *, N_Vector, N_Vector, int))                                      \
+    _(int, IDAGetDky, (void *, double, int, N_Vector)) _(int, IDAGetLastOrder, (void *, int *))                \
+    _(int, IDAGetNumErrTestFails, (void *, long *)) _(int, IDAGetNumNonlinSolvConvFails, (void *, long *))
 
 #define MEMBER(result, name, arguments) result(*name) arguments;
 static struct { FUNCTIONS(MEMBER) } ida;
