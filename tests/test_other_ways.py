@@ -9,8 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from acausal.core.library import WITHOUT
-
 HERE = Path(__file__).parent
 # What is said of the default is not said of the others.
 DEFAULTS = "test_defaults_break_where_the_torque_does_and_cost_little"
@@ -33,8 +31,3 @@ def passes(*arguments: str, **environment: str) -> None:
 @pytest.mark.parametrize("method", METHODS)
 def test_scenes_with_each_method(method):
     passes("tests/models", "--method", method, "-k", f"not ({METHODS[method]})")
-
-
-def test_everything_without_the_core():
-    # When endless bounces are given up depends on the steps.
-    passes("-k", "not (test_message and endless_bouncing)", **{WITHOUT: "1"})

@@ -53,7 +53,6 @@ class Call:
         self.outputs = [np.zeros(function.nnz_out(i)) for i in range(function.n_out())]
         pair: Any = function.buffer()
         self.buffer, self.evaluate = pair
-        self._ran = False
         for i, array in enumerate(self.inputs):
             self.buffer.set_arg(i, memoryview(array))
         for i, array in enumerate(self.outputs):
@@ -66,31 +65,10 @@ class Call:
         self.evaluate()
         return self.outputs
 
-    def clear(self) -> None:
-        """Set all outputs to NaN, so that a failed or interrupted evaluation leaves no old values."""
-        self._ran = False
-        for array in self.outputs:
-            array.fill(np.nan)
-
     def succeeds(self) -> bool:
         """Evaluate in place; return whether the evaluation succeeded."""
-        self._ran = True
         try:
             self.evaluate()
         except RuntimeError:
             return False
         return not self.buffer.ret()
-
-    def attempt(self) -> tuple[bool, str]:
-        """Evaluate in place; return whether the evaluation succeeded, and the solver's messages."""
-        with quiet() as noise:
-            done = self.succeeds()
-        return done, noise.getvalue()
-
-    @property
-    def stats(self) -> dict:
-        """Statistics of the last evaluation; empty if none has begun."""
-        try:
-            return self.buffer.stats() if self._ran else {}
-        except RuntimeError:
-            return {}

@@ -97,7 +97,7 @@ def _analysed(flat: FlatModel, model: Component, parameters: Mapping[str, Any]) 
 def _generate(compiled: CompiledModel) -> None:
     """Generate the functions that every run needs, so that their seconds count as compile time."""
     guards = compiled.guards
-    _ = compiled.local, compiled.values, compiled.start, guards.breaks, guards.estimate, compiled.hoist
+    _ = compiled.local, compiled.values, compiled.start, guards.breaks, guards.estimate
     _ = compiled.constraints
     guards.check()
 

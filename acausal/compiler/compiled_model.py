@@ -15,7 +15,6 @@ from acausal.compiler.algebraic_newton import NewtonStep, newton_steps
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
 from acausal.compiler.constraint_jacobian import Constraints
-from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.event_conditions import EventConditions
 from acausal.compiler.linearization import PointLinearization
 from acausal.compiler.memo import memoized
@@ -50,7 +49,6 @@ class CompiledModel:
     reduced: ReducedModel
     seconds: dict[str, float] = field(default_factory=dict)
     source: Source | None = None
-    integrators: dict[tuple, Call] = field(default_factory=dict)
     memo: dict[Any, Any] = field(default_factory=dict)
     declared: Mapping[str, Any] | None = None
 
@@ -212,37 +210,10 @@ class CompiledModel:
         """Event conditions of the model."""
         return EventConditions(self.reduced, self.start.function)
 
-    def integrator(
-        self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool, sized: bool
-    ) -> Call:
-        """Return the integrator for a relative output grid and options; it is built once.
-
-        Time is scaled, t = t0 + s T. Its parameters are t0, T, the hoisted expressions of parameters and the constants; if
-        `sized`, the states are divided by their sizes, which are further parameters.
-        """
-        chosen = tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items()))
-        key = (plugin, grid, chosen, energy, moves, sized)
-        if key not in self.integrators:
-            dae = self._dae(energy, moves)
-            if sized:
-                dae = in_sizes(dae, self.nominal[self.nx :])
-            function = ca.integrator("simulate", plugin, dae, 0.0, list(grid), dict(options))
-            self.integrators[key] = Call(function)
-        return self.integrators[key]
-
     @cached_property
     def _shared(self) -> ca.SX:
         """Derivatives of the states, residuals and powers in one column, with common subexpressions shared."""
         return ca.cse(ca.vertcat(self.reduced.running.ode, self.reduced.running.alg, self.powers))
-
-    @cached_property
-    def _hoisted(self) -> tuple[ca.SX, ca.SX, ca.SX]:
-        """Equations with expressions of parameters alone replaced by symbols, which are evaluated once a run."""
-        r = self.reduced
-        column, symbols, values = ca.extract_parametric(self._shared, r.p)
-        own = {s.element_hash() for s in scalars(r.p)}
-        bare = [s for s in ca.symvar(column) if s.element_hash() in own]
-        return ca.densify(column), ca.vertcat(*symbols, *bare), ca.vertcat(*values, *bare)
 
     @cached_property
     def powers(self) -> ca.SX:
@@ -269,15 +240,6 @@ class CompiledModel:
     def stored(self) -> Call:
         """Function of x, z, parameters, time and constants: stored energy."""
         return Call(ca.Function("stored", self.arguments[:-1], [ca.densify(self.energy)]))
-
-    @cached_property
-    def hoist(self) -> Call:
-        """Function of parameters: the hoisted expressions that the integrated equations take as parameters."""
-        return Call(ca.Function("hoist", [self.reduced.p], [ca.densify(self._hoisted[2])]))
-
-    @memoized
-    def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
-        return make_dae(self.reduced, self._hoisted, quadratures, moves)
 
     @exclusive
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:

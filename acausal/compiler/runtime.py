@@ -49,6 +49,8 @@ class Runtime:
         Whether powers are integrated.
     varied : callable
         Returns an expression in which inputs vary with time.
+    moves : bool
+        Whether the projection of closed loops moves; the states are chosen once if not.
     """
 
     compiled: CompiledModel
@@ -58,12 +60,13 @@ class Runtime:
     closures: np.ndarray
     energies: bool = False
     varied: Callable[[ca.SX], ca.SX] = lambda expression: expression
+    moves: bool = True
 
     def moving(self, expression: ca.SX) -> ca.SX:
-        """Return an expression where the projection moves and inputs vary."""
+        """Return an expression with the projection of the run-time, where inputs vary."""
         projections = self.compiled.reduced.projections
         if projections.choice.numel():
-            expression = ca.substitute(expression, projections.moves, 1)
+            expression = ca.substitute(expression, projections.moves, self.moves)
         return self.varied(expression)
 
     @cached_property
@@ -81,7 +84,7 @@ class Runtime:
     def equations(self) -> Equations:
         """The equations that are integrated."""
         if self._shares:
-            return core_equations(self.compiled, False, True)
+            return core_equations(self.compiled, False, self.moves)
         x, z, t, p, c = self._symbols
         return make_equations(x, z, t, p, c, *self.running)
 

@@ -1,13 +1,15 @@
 """The core: a library in C that evaluates and integrates any model, which it takes as data."""
 
 from acausal.core.curve import Curve
+from acausal.core.equations import Equations, make_equations, with_powers
 from acausal.core.laws import laws_of
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
-from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
-from acausal.core.run import Back, Doubt, Rows, Run, RunState
+from acausal.core.run import Back, Doubt, Multistep, Rows, Run, RunState
 from acausal.core.settle import Settler, Square, make_square
+from acausal.core.stepper import End, Outputs, Stepper
+from acausal.core.sundials import idas, why_no_idas
 from acausal.core.tape import Tape, make_tape
 
 __all__ = [
@@ -17,20 +19,23 @@ __all__ = [
     "Doubt",
     "End",
     "Equations",
+    "Multistep",
     "Outputs",
-    "Rodas",
     "Rows",
     "Run",
     "RunState",
     "Settler",
     "Square",
+    "Stepper",
     "StoredModel",
     "Tape",
+    "idas",
     "laws_of",
     "library",
     "make_equations",
     "make_square",
     "make_tape",
+    "why_no_idas",
     "why_not",
     "with_powers",
 ]

@@ -9,7 +9,7 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Interpolants of steps in a row, of order 4.
+    """Interpolants of steps in a row.
 
     Attributes
     ----------
@@ -17,7 +17,7 @@ class Curve:
         Ends of the steps, ascending.
     y : array, shape (m + 1, n)
         Values there.
-    dense : array, shape (m, 3, n)
+    dense : array, shape (m, rows, n)
         Coefficients of each step, as the library has them.
     """
 
@@ -29,5 +29,7 @@ class Curve:
         """Values at times in these steps, shape (k, n)."""
         k = np.clip(np.searchsorted(self.times, times) - 1, 0, len(self.dense) - 1)
         s = ((times - self.times[k]) / (self.times[k + 1] - self.times[k]))[:, None]
-        d0, d1, d2 = np.moveaxis(self.dense[k], 1, 0)
-        return (1 - s) * self.y[k] + s * (self.y[k + 1] + (1 - s) * (d0 + s * (d1 + s * d2)))
+        *rest, d = np.moveaxis(self.dense[k], 1, 0)
+        for row in reversed(rest):
+            d = row + s * d
+        return (1 - s) * self.y[k] + s * (self.y[k + 1] + (1 - s) * d)

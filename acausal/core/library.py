@@ -72,10 +72,13 @@ class RequestData(Structure):
         ("largest", c_int32),
         ("singular", c_int32),
         ("most", c_int64),
+        ("share", c_int32),
         ("outputs", c_int32),
         *((name, c_void_p) for name in ("time", "x", "z", "integral", "taken")),
         ("room", c_int32),
         *((name, c_void_p) for name in ("step_time", "step_y", "step_dense")),
+        ("order", c_int32),
+        ("newton", c_double),
     )
 
 
@@ -89,6 +92,7 @@ class Progress(Structure):
         ("time", c_double),
         ("left", c_double),
         ("turned", c_int64),
+        ("factors", c_int64),
     )
 
 
@@ -109,22 +113,26 @@ FUNCTIONS = {
     "ac_settler_renew": (None, (c_void_p,)),
     "ac_settler_free": (None, (c_void_p,)),
     "ac_rodas_make": (c_void_p, (POINTER(EquationsData),)),
-    "ac_rodas_begin": (None, (c_void_p, POINTER(RequestData), *[c_void_p] * 4)),
-    "ac_rodas_move": (None, (c_void_p, c_void_p, c_void_p)),
-    "ac_rodas_allow": (None, (c_void_p, c_int64)),
-    "ac_rodas_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
-    "ac_rodas_renew": (None, (c_void_p,)),
-    "ac_rodas_free": (None, (c_void_p,)),
     "ac_shares": (c_int32, (c_int32, *[c_void_p] * 6)),
+    "ac_ida_make": (c_void_p, (POINTER(EquationsData),)),
+    "ac_ida_function": (c_char_p, (c_int32,)),
+    "ac_ida_load": (None, (c_void_p,)),
+    "ac_stepper_begin": (None, (c_void_p, POINTER(RequestData), *[c_void_p] * 4)),
+    "ac_stepper_move": (None, (c_void_p, c_void_p, c_void_p)),
+    "ac_stepper_allow": (None, (c_void_p, c_int64)),
+    "ac_stepper_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
+    "ac_stepper_renew": (None, (c_void_p,)),
+    "ac_stepper_free": (None, (c_void_p,)),
     "ac_unit_read": (c_void_p, (c_char_p, c_size_t, POINTER(c_int32))),
     "ac_unit_free": (None, (c_void_p,)),
     "ac_instance_make": (c_void_p, (c_void_p,)),
     "ac_instance_free": (None, (c_void_p,)),
     "ac_message": (c_char_p, (c_void_p,)),
     "ac_redundant_laws": (None, (c_void_p, c_void_p)),
-    "ac_run_begin": (None, (c_void_p, c_double, c_double, c_double, c_int32, *[c_void_p] * 5)),
+    "ac_run_begin": (c_int32, (c_void_p, c_void_p, c_double, *[c_void_p] * 5)),
     "ac_run_go": (c_int32, (c_void_p, c_void_p, c_void_p)),
-    "ac_run_values": (None, (c_void_p,) * 7),
+    "ac_run_values": (None, (c_void_p,) * 6),
+    "ac_run_undefined": (c_double, (c_void_p,) * 3),
 }
 
 
@@ -199,11 +207,14 @@ class Pool:
         What it is for, as in the names of the functions that make, renew and free it.
     data : Structure
         What the library takes as the equations.
+    family : str, optional
+        Of what kind it is to those that renew and free it, where that is another one.
     """
 
-    def __init__(self, kind: str, data: Structure) -> None:
+    def __init__(self, kind: str, data: Structure, family: str = "") -> None:
+        names = kind, family or kind, family or kind
         self._make, self._renew, self._free = (
-            getattr(loaded(), f"ac_{kind}_{what}") for what in ("make", "renew", "free")
+            getattr(loaded(), f"ac_{name}_{what}") for name, what in zip(names, ("make", "renew", "free"), strict=True)
         )
         self._data, self._idle = data, list[int]()
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from acausal.core.rodas import Equations
+from acausal.core.equations import Equations
 from acausal.core.tape import Tape
 
 VERSION = 1

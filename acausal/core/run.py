@@ -30,11 +30,26 @@ class Back(IntEnum):
 class Doubt(IntEnum):
     """Reasons of doubt, beside those of `End`.
 
-    Closed loops are in a singular configuration, or creep towards one; or algebraic unknowns jump.
+    Closed loops are in a singular configuration, or creep towards one; algebraic unknowns jump; or a condition has no value.
     """
 
     SINGULAR = 16
     FOLD = 17
+    UNDEFINED = 18
+
+
+class MethodData(Structure):
+    """Method of a run, see `ac_run_method` and `ac_multistep` in the core."""
+
+    _fields_ = (
+        ("method", c_int32),
+        ("damps", c_int32),
+        ("tolerance", c_double),
+        ("step", c_double),
+        ("size", c_void_p),
+        ("newton", c_double),
+        ("order", c_int32),
+    )
 
 
 class RequestData(Structure):
@@ -58,9 +73,28 @@ class RunState(Structure):
         ("step", c_double),
         ("supplied", c_double),
         ("dissipated", c_double),
-        *((name, c_int64) for name in ("steps", "refused", "values", "evaluations", "begun")),
+        *((name, c_int64) for name in ("steps", "refused", "factors", "values", "evaluations", "begun")),
         *((name, c_int32) for name in ("rows", "events", "hasty", "why", "weak")),
     )
+
+
+@dataclass(frozen=True)
+class Multistep:
+    """Settings of IDAS.
+
+    Attributes
+    ----------
+    size : array, shape (nx + nz,)
+        Sizes of states and algebraic unknowns in the error test and in Newton iterations.
+    order : int
+        Highest order.
+    newton : float
+        Part of the tolerance that Newton iterations may leave.
+    """
+
+    size: np.ndarray
+    order: int
+    newton: float
 
 
 @dataclass(frozen=True)
@@ -136,7 +170,8 @@ class Run:
         *,
         step: float,
         tolerance: float,
-        damps: bool,
+        damps: bool = False,
+        multistep: Multistep | None = None,
     ) -> None:
         """Begin at a consistent point.
 
@@ -149,15 +184,21 @@ class Run:
         mode : array of bool
             Which watched conditions hold.
         step : float
-            First step in s; chosen if 0.
+            First step in s, of IDAS the longest one; chosen if 0.
         tolerance : float
             Relative tolerance.
-        damps : bool
-            Whether vibrations are damped that coordinates do not show.
+        damps : bool, optional
+            Whether Rodas5P damps vibrations that coordinates do not show.
+        multistep : Multistep, optional
+            Settings of IDAS, if it integrates in place of Rodas5P.
         """
         given = [np.ascontiguousarray(a, dtype=float) for a in (x, z, p, c, mode)]
-        self.state = RunState(time=time, step=step)
-        self._library.ac_run_begin(self._memory, time, step, tolerance, damps, *map(address, given))
+        self.state, method = RunState(time=time, step=step), MethodData(0, damps, tolerance, step)
+        if multistep:
+            self._size = np.ascontiguousarray(multistep.size, dtype=float)  # the library keeps its address
+            method = MethodData(1, False, tolerance, step, address(self._size), multistep.newton, multistep.order)
+        if self._library.ac_run_begin(self._memory, byref(method), time, *map(address, given)):
+            raise MemoryError
 
     def go(self, outputs: np.ndarray, end: float, *, steps: int, longest: int = 2**62) -> Rows:
         """Run one slice towards an end; the interpreter lock is released meanwhile.
@@ -196,11 +237,14 @@ class Run:
         return self._library.ac_message(self._memory).decode()
 
     def values(self) -> tuple[np.ndarray, ...]:
-        """Return states, algebraic unknowns, constants, watched conditions that hold, their greatest values since the last event,
-        and those that change now.
-        """
+        """Return states, algebraic unknowns, constants, watched conditions that hold, and those that change now."""
         nx, nz, nc, watched = self._sizes
-        found = [np.empty(n) for n in (nx, nz, nc, watched, watched, watched)]
+        found = [np.empty(n) for n in (nx, nz, nc, watched, watched)]
         self._library.ac_run_values(self._memory, *map(address, found))
-        x, z, c, mode, peak, crossed = found
-        return x, z, c, mode > 0, peak, crossed > 0
+        x, z, c, mode, crossed = found
+        return x, z, c, mode > 0, crossed > 0
+
+    def undefined(self) -> tuple[float, np.ndarray, np.ndarray]:
+        """Return the time in s at which a condition has no value, with states and algebraic unknowns there."""
+        x, z = (np.empty(n) for n in self._sizes[:2])
+        return self._library.ac_run_undefined(self._memory, address(x), address(z)), x, z

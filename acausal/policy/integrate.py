@@ -29,12 +29,16 @@ class Order:
     # Steps for all outputs together, and for one, after which a limit that may be wrong is in doubt: ten times the trial.
     doubt: int = 20_000
     fewest: int = 40
-    # Parts of a run on which both limits are tried, parts after which they are tried again (free vibration at four
-    # tolerances, four lengths: at most 16 % above the better limit, 26 % with 200 and 4), and by how much the highest order
-    # must win (free vibration at 1e-6: 6 times, at 1e-4 it loses; the pendulum gets cheap with order 2).
-    heads: int = 400
+    # Parts of a run on which both limits are tried, parts after which they are tried again (free vibration at 1e-6 and 400
+    # intervals: on a 400th, the start of order 5 costs more than its steps, and order 2 wins), and by how much the highest
+    # order must win (free vibration at 1e-6: 6 times, at 1e-4 it loses; the pendulum gets cheap with order 2).
+    heads: int = 200
     chunks: int = 3
     gain: int = 3
+    # Order 2 with fewer steps for an output than so many times those with which the highest order is stable is not in doubt: a
+    # step of the highest order takes half the evaluations (free vibration, stable with 249: order 2 takes 153 steps at 1e-4
+    # and 231 at 3e-5, where it is the better limit, and 681 at 1e-6, where it is not).
+    cheap: float = 1.5
     # A limit of 2 that takes so many times the steps with which the highest order is stable has lost.
     dear: float = 4.0
     # Half angle of the wedge around the negative real axis in which BDF is stable (Hairer & Wanner II, V.2.7), by order.
@@ -73,6 +77,8 @@ class Rescue:
     stalled: float = 1e-6
     looser: tuple[float, ...] = (1.0, 1e2, 1e4)
     loosest: float = 1e-4
+    # Output intervals of a run with a larger tolerance, at most.
+    loosened: int = 10
 
 
 @dataclass(frozen=True)
@@ -112,20 +118,10 @@ class Calls:
     # vibrations, which then cost steps; near a singular configuration of a loop they are enlarged.
     newton: float = 0.05
     newton_in_loops: float = 0.005
-    # First step of the one-step method, as a fraction of the call; that of a gentle call of the other changes states by
-    # this fraction of the tolerance.
-    first: float = 1e-2
-    gentle: float = 0.1
     # Operations of the core before Python looks for an interrupt, some hundredths of a second: 10 evaluations a step.
     at_once: int = 3_000_000
-    # Digits to which two relative grids are the same integrator.
-    digits: int = 12
     # Of the time, and of the run: a call that begins so near the last row goes on from it.
     here: float = 1e-9
-    # States and algebraic unknowns from which `csparse` is left. Spin-up of 40, 80, 160, 320 and 500 volumes (632, 1272,
-    # 2552, 5112 and 7992 unknowns), 20 s at 1e-4: 36, 33, 31, 33 and 32 steps with both; qr took 0.02, 0.03, 0.1, 1 and
-    # 1 s, csparse 0.02, 0.04, 0.1, 40 and 160 s or more.
-    large: int = 2000
 
 
 @dataclass(frozen=True)

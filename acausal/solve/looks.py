@@ -6,8 +6,6 @@ from functools import lru_cache
 
 import numpy as np
 
-GOLDEN = (5**0.5 - 1) / 2
-
 
 def pace(times: np.ndarray, rate: np.ndarray) -> np.ndarray:
     """Return the change of functions in each interval at the larger of their rates at its ends.
@@ -21,24 +19,6 @@ def pace(times: np.ndarray, rate: np.ndarray) -> np.ndarray:
     """
     fastest = np.maximum(np.abs(rate[1:]), np.abs(rate[:-1]))
     return (fastest.T * np.diff(times)).T
-
-
-def uneven(grid: np.ndarray, parts: int) -> np.ndarray:
-    """Divide each interval into uneven parts, so that no periodic motion stays in step with the samples.
-
-    Parameters
-    ----------
-    grid : array, shape (n + 1,)
-        Ends of the intervals in s.
-    parts : int
-        Number of parts of each interval.
-    """
-    n = len(grid) - 1
-    share = 0.6 + 0.8 * (np.arange(n * parts) * GOLDEN % 1).reshape(n, parts)
-    inside = np.cumsum(share, axis=1) / np.sum(share, axis=1, keepdims=True) * np.diff(grid)[:, None]
-    times = np.concatenate([grid[:1], (grid[:-1, None] + inside).ravel()])
-    times[::parts] = grid
-    return times
 
 
 @lru_cache(maxsize=256)  # runs of one model have the same intervals

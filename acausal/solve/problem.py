@@ -66,11 +66,6 @@ class Problem:
         """Pairs (coordinate, rate) among the states."""
         return rates_of(self.compiled)
 
-    @cached_property
-    def hoisted(self) -> np.ndarray:
-        """Subexpressions of the integrated equations that depend on parameters alone."""
-        return self.compiled.hoist(self.p)[0].copy()
-
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
         """Return ode, alg and conditions; `flag` is 1 for the initial system. The next call overwrites the array."""
         return self.compiled.values(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0]

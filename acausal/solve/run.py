@@ -12,7 +12,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.memo import memo_seconds
 from acausal.compiler.report import loops_at, parts_at
-from acausal.errors import DeclarationError, SimulationError, caution
+from acausal.errors import DeclarationError, SimulationError
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
@@ -29,7 +29,7 @@ from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
 from acausal.solve.initialization.initial_point import InitialPoint, initial_point
 from acausal.solve.initialization.initialize import Start
-from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
 from acausal.solve.integrate.settings import Progress, Settings
@@ -41,10 +41,6 @@ from acausal.solve.results.evaluator import Evaluator
 
 PLAIN = 10  # further numbers stored for each output
 SHOWN = 5  # times in a message
-ROUGH = (
-    "the energies are less accurate than the tolerance: a power varies too fast for the points between the outputs. "
-    "Use more points: simulate(..., intervals=...)."
-)
 
 
 @dataclass(frozen=True)
@@ -261,10 +257,8 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     found = validity_warnings(evaluate) + smoothness_warnings(integrator, evaluate)
     found += mobility_warnings(integrator.problem, done.begun.point, done.begun.redundancy.redundant)
     found += loop_drift(integrator.consistent, rows) + done.course.idle()
-    stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
+    stats = stats.changed(doubts=[*found, *_loosened(integrator)])
     if energy:
-        if integrator.trace.rough:
-            caution(ROUGH)
         stored = Evaluator(rows[[0, -1]], integrator.consistent)
         change = float(np.diff(stored(compiled.reduced.flat.energies["stored_energy"])[:, 0])[0])
         supplied, dissipated = integrator.trace.energy.tolist()
@@ -286,15 +280,4 @@ def _loosened(integrator: Integrator) -> list[str]:
     return [
         f"step size underflow at the tolerance {integrator.tolerance:g} after t = {shown} s, as happens near a singular "
         "configuration; each time one output interval was integrated with a larger tolerance, so errors may be larger afterwards."
-    ]
-
-
-def _flat(integrator: Integrator) -> list[str]:
-    """Return a warning if loops passed a singular configuration by a method that may take either branch."""
-    times = integrator.trace.flat
-    if not times:
-        return []
-    return [
-        f"the mechanism passes a singular configuration, where motions branch, at t = {min(times):.6g} s; the method that damps "
-        'vibrations may have left its branch. method="idas" stays on the branch (docs/loops.md).'
     ]

@@ -33,7 +33,7 @@ import casadi as ca
 import numpy as np
 import sympy as sp
 
-from acausal.core import End, Rodas, make_equations
+from acausal.core import End, Stepper, make_equations
 
 
 @dataclass(frozen=True)
@@ -289,7 +289,7 @@ def simulate_on_core(
     initial = ca.rootfinder("initial", "newton", residual, {"linear_solver": "qr"})
     grid, x, z = np.linspace(0.0, stop_time, intervals + 1), np.zeros(model.n_states), np.zeros(model.n_algebraic)
     initialise = _in_place(initial, {"z0": z, "x": x}, {initial.name_out(0): z})
-    rodas, rate = Rodas(equations), np.tile([0, 0, 0, 1, 1, 1], model.volumes)
+    rodas, rate = Stepper(equations), np.tile([0, 0, 0, 1, 1, 1], model.volumes)
     seconds = []
     for _ in range(repeats):
         z[:] = 0.0

@@ -100,55 +100,7 @@ typedef struct {
     const int32_t *diagonal;    /* (nx) places of that diagonal */
 } ac_equations;
 
-/* What one integration is asked for. */
-typedef struct {
-    double tolerance, first_step;  /* first step 0: chosen */
-    const double *size;            /* (nx) sizes of the states in the error test */
-    const int32_t *rate;           /* (nx) whether a state is a rate of another one; NULL: none is */
-    int32_t smooth;                /* whether vibrations that a step does not resolve are left out of the error of rates */
-    int32_t largest;               /* whether the largest error of a state counts, not their root mean square */
-    int32_t singular;              /* whether positions of closed loops may be passed at which unknowns grow without end: what steps
-                                      leave of the algebraic equations is not looked at then */
-    int64_t most;                  /* steps between two outputs */
-    int32_t outputs;
-    const double *time;            /* (1 + outputs) start and output times, ascending */
-    double *x, *z, *integral;      /* (outputs, ...) what is found; NULL: nothing is written */
-    double *taken;                 /* (outputs) steps up to each, with the part of its own; NULL: not written */
-    int32_t room;                  /* for steps that are kept: the first ones since one was told to go on */
-    double *step_time, *step_y;    /* (room), (room, nx + nz) their ends */
-    double *step_dense;            /* (room, 3, nx + nz) coefficients of their interpolants, see `outputs.c`; NULL: none */
-} ac_request;
-
-/* How it ended: more steps to do, too many between two outputs; steps too short for the tolerance, or for the equations to be solved. */
-enum { AC_DONE, AC_MORE, AC_MANY, AC_SHORT, AC_UNSOLVED, AC_MEMORY };
-
-/* Counts of one integration. */
-typedef struct {
-    int64_t steps, refused, slopes, values, pivots;
-    int32_t written, kept; /* outputs and steps */
-    double time;           /* reached */
-    double left;           /* of algebraic equations between steps, the largest residual over the largest sum of its terms */
-    int64_t turned;        /* how often the determinant of the matrix had another sign than at first */
-} ac_progress;
-
-/* What the next step takes over from the ones before. */
-typedef struct {
-    double trusted;             /* what steps may leave of the terms, as one left it whose unknowns were near enough */
-    int32_t refused, unsolved;  /* the last step was; the equations were not solved where it led */
-    int32_t slow;               /* so many of the next steps grow slowly */
-    int32_t bent;               /* so many of the next steps may begin beside a bend */
-} ac_pace;
-
-typedef struct ac_rodas ac_rodas;
-
-AC_PUBLIC ac_rodas *ac_rodas_make(const ac_equations *equations);
-AC_PUBLIC void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p,
-                              const double *c);
-AC_PUBLIC void ac_rodas_move(ac_rodas *r, const double *x, const double *z);
-AC_PUBLIC void ac_rodas_allow(ac_rodas *r, int64_t most);
-AC_PUBLIC int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress);
-AC_PUBLIC void ac_rodas_renew(ac_rodas *r);
-AC_PUBLIC void ac_rodas_free(ac_rodas *r);
+typedef struct ac_request ac_request; /* for one integration, see `stepper.h` */
 
 /* Friction forces of n laws at rest, as shares u of their limits: |u| <= 1, where the accelerations a = b - A u are 0 for |u| < 1 and have
    the sign of u elsewhere. A (n, n) is positive semi-definite with a positive diagonal. The accelerations are unique; redundant

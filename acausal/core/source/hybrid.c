@@ -21,10 +21,10 @@
 
 /* States and guesses of algebraic unknowns at a time within the last step. */
 void ac_stand(ac_instance *i, double time) {
-    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz;
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz, rows = i->stepper->method->rows;
     const double h = i->now.to - i->now.from, s = h > 0 ? fmin((time - i->now.from) / h, 1) : 1;
-    ac_interpolate(n, i->before, i->after, i->dense, s, 0, nx, i->x);
-    ac_interpolate(n, i->before, i->after, i->dense, s, nx, nz, i->z);
+    ac_interpolate(n, rows, i->before, i->after, i->dense, s, 0, nx, i->x);
+    ac_interpolate(n, rows, i->before, i->after, i->dense, s, nx, nz, i->z);
     i->now.time = time;
     ac_moved(i);
 }
@@ -47,9 +47,10 @@ static int32_t begin(ac_instance *i, double to) {
     i->ends[1] = fmin(to, i->now.end), i->ends[2] = i->now.end;
     const ac_request request = {
         .tolerance = i->now.tolerance, .first_step = goes_on ? i->now.first_step : i->now.longer, .rate = m->rate,
-        .size = damps ? u->damped : m->size, .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
-        .most = INT64_MAX / 4, .outputs = i->ends[1] < i->ends[2] ? 2 : 1, .time = i->ends, .room = 1,
-        .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense,
+        .size = i->multistep.size ? i->multistep.size : damps ? u->damped : m->size,
+        .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
+        .most = INT64_MAX / 4, .share = 1, .outputs = i->ends[1] < i->ends[2] ? 2 : 1, .time = i->ends, .room = 1,
+        .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense, .order = i->multistep.order, .newton = i->multistep.newton,
     };
     const double *y = i->after;
     if (!goes_on) {
@@ -62,7 +63,7 @@ static int32_t begin(ac_instance *i, double to) {
         memcpy(i->after + ac_states(i), i->z, (size_t)m->equations.nz * sizeof *i->z);
         i->now.looked = i->now.taken = 0, i->now.last = 0;
     }
-    ac_rodas_begin(i->rodas, &request, y, y + ac_states(i), i->p, i->c);
+    ac_stepper_begin(i->stepper, &request, y, y + ac_states(i), i->p, i->c);
     if (goes_on) {
         i->rodas->h = i->now.first_step;
         i->rodas->begun = 1, i->rodas->pace = i->now.pace;
@@ -80,7 +81,7 @@ static void go_back(ac_instance *i) {
     ac_stand(i, i->now.to);
     const double *w = ac_run(i, AC_COORDINATES);
     for (int32_t k = 0; k < u->tape[AC_COORDINATES].outputs; k++) i->after[u->coordinate[k]] = w[u->tape[AC_COORDINATES].output[k]];
-    ac_rodas_move(i->rodas, i->after, i->after + ac_states(i));
+    ac_stepper_move(i->stepper, i->after, i->after + ac_states(i));
 }
 
 /* Whether one more step may be tried. */
@@ -106,17 +107,17 @@ static int creeps(ac_instance *i, const ac_progress *done) {
 static int32_t advance(ac_instance *i, double *left) {
     static const char *const why[] = {
         "", "", "", "no step is short enough for the tolerance.", "the equations have no solution beyond.",
-        "there is not enough memory.",
+        "there is not enough memory.", "the tolerance is smaller than rounding errors.",
     };
     const size_t n = (size_t)ac_states(i) + (size_t)i->of->parts.model.equations.nz;
-    const ac_progress begun = i->rodas->progress;
+    const ac_progress begun = i->stepper->progress;
     ac_progress done = {0};
     int32_t end = AC_MORE, may = 1;
     go_back(i);
-    while (end == AC_MORE && !done.kept && (may = may_step(i, left))) end = ac_rodas_go(i->rodas, 1, &done);
+    while (end == AC_MORE && !done.kept && (may = may_step(i, left))) end = ac_stepper_go(i->stepper, 1, &done);
     if (done.steps + done.refused) {
         i->counts.steps += done.steps - begun.steps, i->counts.refused += done.refused - begun.refused;
-        i->counts.values += done.values - begun.values;
+        i->counts.values += done.values - begun.values, i->counts.factors += done.factors - begun.factors;
     }
     if (!may && i->recorder && i->recorder->left < 0) return AC_PAUSE;
     if (!may && i->recorder) i->recorder->state->why = AC_MANY;
@@ -137,7 +138,7 @@ static int32_t meet_flat(ac_instance *i, double *shorter) {
     double *rates = i->looks + 3 * i->of->watched, where = 1;
     int32_t failed = AC_OK;
     *shorter = 0;
-    if (!i->of->levels) return AC_OK;
+    if (!i->of->levels || i->stepper->method->iterates) return AC_OK;
     if (i->now.looked) ac_put(rates, rates + nx, nx);
     for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
         ac_stand(i, end ? i->now.to : i->now.from);

@@ -4,6 +4,16 @@
 
 #include "instance.h"
 
+/* Methods of integration. */
+enum { AC_RODAS, AC_IDAS };
+
+/* How a run is integrated. */
+typedef struct {
+    int32_t method, damps;           /* damps: as of the settings, of Rodas5P */
+    double tolerance, step;          /* first step, chosen if 0 */
+    ac_multistep multistep;          /* of IDAS */
+} ac_run_method;
+
 /* What a run is asked for. */
 typedef struct {
     double end;                      /* where it stops; what happens there is left to the caller */
@@ -19,8 +29,8 @@ typedef struct {
 typedef struct {
     double time, step;               /* reached; the longer of the last two steps, 0 for none */
     double supplied, dissipated;     /* energies since it began */
-    int64_t steps, refused, values, evaluations, begun;
-    int32_t rows, events, hasty, why; /* why: as of `ac_rodas_go`, where that ended it */
+    int64_t steps, refused, factors, values, evaluations, begun;
+    int32_t rows, events, hasty, why; /* why: as of `ac_stepper_go`, or below */
     int32_t weak;                    /* events in a row with hardly any motion between */
 } ac_run_state;
 
@@ -37,18 +47,18 @@ struct ac_recorder {
    next; other independent constraints are to be selected. */
 enum { AC_RUN_END, AC_RUN_FULL, AC_RUN_PAUSED, AC_RUN_EVENT, AC_RUN_DOUBT, AC_RUN_UNFIT };
 
-/* Reasons of doubt, beside those of `ac_rodas_go`: closed loops are in a singular configuration, or creep towards one; algebraic unknowns
+/* Reasons of doubt, beside those of `ac_stepper_go`: closed loops are in a singular configuration, or creep towards one; algebraic unknowns
    jump; a condition has no value. */
 enum { AC_SINGULAR = 16, AC_FOLD, AC_UNDEFINED };
 
-/* Take an instance to a consistent point, from which it runs with a first step, chosen if 0; `truth`: which watched conditions hold.
-   `damping`, `tolerance`: as of the settings. */
-AC_PUBLIC void ac_run_begin(ac_instance *i, double time, double step, double tolerance, int32_t damping, const double *x, const double *z,
-                            const double *p, const double *c, const double *truth);
+/* Take an instance to a consistent point, from which it runs; `truth`: which watched conditions hold. AC_FAILED without memory. */
+AC_PUBLIC int32_t ac_run_begin(ac_instance *i, const ac_run_method *method, double time, const double *x, const double *z, const double *p,
+                               const double *c, const double *truth);
 AC_PUBLIC int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state);
-/* Values at the present: states, algebraic unknowns, constants, conditions that hold, greatest values of indicators since the last event,
-   indicators that change now. */
-AC_PUBLIC void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *peak, double *crossed);
+/* Values at the present: states, algebraic unknowns, constants, conditions that hold, indicators that change now. */
+AC_PUBLIC void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *crossed);
+/* The time at which a condition has no value, with states and algebraic unknowns there. */
+AC_PUBLIC double ac_run_undefined(const ac_instance *i, double *x, double *z);
 
 /* Set-valued laws that are redundant at rest, in the first decision that found some. */
 AC_PUBLIC void ac_redundant_laws(const ac_instance *i, double *redundant);

@@ -82,8 +82,10 @@ static int take(ac_instance *i, int32_t r, const sample *before, sample *to) {
     return 1;
 }
 
-static int32_t undefined(ac_instance *i, double time) {
-    i->now.time = time;
+static int32_t undefined(ac_instance *i, int32_t r) {
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz;
+    ac_put(i->event_y, i->samples.x + (ptrdiff_t)r * nx, nx), ac_put(i->event_y + nx, i->samples.z + (ptrdiff_t)r * nz, nz);
+    i->now.time = i->now.undefined = i->samples.time[r];
     if (i->recorder) i->recorder->state->why = AC_UNDEFINED;
     return ac_fail(i, AC_RETRY, "a condition has no value.");
 }
@@ -94,7 +96,7 @@ static int32_t sample_at(ac_instance *i, double time, const sample *before, samp
     ac_sample_step(i, 1);
     const int32_t failed = ac_sample_indicators(i, 1);
     if (failed) return failed;
-    return take(i, 0, before, to) ? AC_OK : undefined(i, time);
+    return take(i, 0, before, to) ? AC_OK : undefined(i, 0);
 }
 
 /* How far the value at m is from the cubic through values and rates at a and b; a quarter of it bounds the error between neighbours. */
@@ -166,7 +168,7 @@ static int32_t stand_between(ac_instance *i, double from, double to, double shar
     const int32_t failed = ac_sample_indicators(i, 1);
     if (failed) return failed;
     ac_put(y + nx, z, n - nx);
-    return take(i, 0, before, found) ? AC_OK : undefined(i, i->samples.time[0]);
+    return take(i, 0, before, found) ? AC_OK : undefined(i, 0);
 }
 
 /* The event between two times that rounding hardly separates: on the straight line between them, the first point beyond a level. What
@@ -293,7 +295,7 @@ int32_t ac_locate(ac_instance *i) {
     ac_put(range, at[0].value, m), ac_put(error, at[0].value, m);
     for (int32_t r = 1; r <= parts && !failed; r++) {
         at[r] = slot(i, first + r);
-        if (!take(i, r - 1, &at[r - 1], &at[r])) return undefined(i, i->samples.time[r - 1]);
+        if (!take(i, r - 1, &at[r - 1], &at[r])) return undefined(i, r - 1);
         for (int32_t k = 0; k < m; k++) range[k] = fmax(range[k], at[r].value[k]), error[k] = fmin(error[k], at[r].value[k]);
     }
     for (int32_t k = 0; k < m; k++) range[k] -= error[k];

@@ -33,7 +33,7 @@ static size_t lay_out(ac_instance *i, double *at) {
     } part[] = {
         {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
         {&i->crossed, watched}, {&i->sure, n}, {&i->looks, 3 * watched + 2 * nx}, {&i->least, watched}, {&i->width, watched},
-        {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->past, u->levels ? AC_PAST * (1 + 2 * nx) : 0}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
+        {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->past, u->levels ? AC_PAST * (1 + 2 * nx) : 0}, {&i->dense, AC_DENSE_ROWS * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
         {&i->step_y, n}, {&i->order, 3 * n + 1}, {&i->sampled, AC_SLOTS * 3 * watched}, {&i->errors, AC_SLOTS * watched},
         {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->round, n + nc + watched},
@@ -62,6 +62,7 @@ ac_instance *ac_instance_make(const ac_unit *unit) {
     i->block = calloc(lay_out(i, NULL) + 1, sizeof *i->block);
     i->rodas = ac_rodas_make(&unit->parts.model.equations);
     i->search.place = calloc(3 * (size_t)unit->switches + 1, sizeof *i->search.place);
+    i->stepper = (ac_stepper *)i->rodas;
     int good = i->block && i->rodas && i->search.place;
     for (int k = 0; k < AC_SQUARES; k++) {
         i->settler[k] = ac_settler_make(&unit->square[k]);
@@ -91,7 +92,7 @@ ac_instance *ac_instance_make(const ac_unit *unit) {
 void ac_instance_free(ac_instance *i) {
     if (!i) return;
     for (int k = 0; k < AC_SQUARES; k++) ac_settler_free(i->settler[k]);
-    ac_rodas_free(i->rodas);
+    ac_stepper_free((ac_stepper *)i->rodas), ac_stepper_free(i->idas);
     free(i->search.place);
     free(i->block);
     free(i);

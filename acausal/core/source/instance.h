@@ -82,6 +82,7 @@ typedef struct {
     double next, event;                    /* of the instants that are known; event in the last step; infinite for none */
     double sure_time;                      /* of the last point at which the algebraic unknowns were solved for */
     double crowd;                          /* since when events follow one another closely */
+    double undefined;                      /* time at which a condition has no value; the values there stand in event_y */
     double delay;                          /* for how long the time of the event is uncertain by the tolerance */
     double firm;                           /* conditioning of the kept constraints when the integration began; 0 where none is spare */
     double since, longer, last;            /* where the output interval begins; the longer of the last two steps, and the last one */
@@ -113,9 +114,16 @@ typedef struct {
     int32_t solved[AC_ROWS];
 } ac_samples;
 
-/* Counts of steps, refused ones, evaluations of the equations, of parts of them, and integrations that were begun. */
+/* Request of a multistep method, as of `ac_request`: size, which has to stay, is NULL for another method. */
 typedef struct {
-    int64_t steps, refused, values, evaluations, begun;
+    const double *size;
+    double newton;
+    int32_t order;
+} ac_multistep;
+
+/* Counts of steps, refused ones, factorisations, evaluations of the equations, of parts of them, and integrations that were begun. */
+typedef struct {
+    int64_t steps, refused, factors, values, evaluations, begun;
 } ac_counts;
 
 /* Steps and refused steps up to a time, the farthest that a window of steps led, and slow windows in a row. */
@@ -140,13 +148,15 @@ struct ac_instance {
     ac_now now;
     size_t saved;                           /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
-    double *before, *after, *dense;         /* interpolant: (n), (n), (3, n); in Model Exchange the last point that was kept, its rates */
+    double *before, *after, *dense;         /* interpolant: (n), (n), (AC_DENSE_ROWS, n); in Model Exchange the last point that was kept, its rates */
     double *past;                           /* (AC_PAST, 1 + 2 nx) times, states and rates of the last steps, the latest first; for loops */
     double *sure;                           /* x and z of the last point at which z was solved for */
     double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
     ac_rodas *rodas;
+    ac_stepper *idas, *stepper;             /* idas: NULL until a run asks for it; stepper: the one of the run */
+    ac_multistep multistep;
     double *looks;                          /* values, rates and levels of indicators at the end of the last step; rates of states at its ends */
     double *least, *width, *peak;           /* of indicators: levels of what was not positive, tolerance bands, greatest values since the last event */
     ac_samples samples;

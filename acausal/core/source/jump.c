@@ -39,7 +39,7 @@ static double change(int32_t nz, const double *a, const double *b, const double 
 /* Follow the part of the step in which they change most, until they hardly do. */
 int32_t ac_refuse_jump(ac_instance *i) {
     const int32_t nz = i->of->parts.model.equations.nz;
-    if (!nz || i->of->constraints || !ac_rodas_doubts(i->rodas)) return AC_OK;
+    if (!nz || i->of->constraints || i->stepper->method->iterates || !ac_rodas_doubts(i->rodas)) return AC_OK;
     double *all = malloc(4 * (size_t)nz * sizeof *all), *a = all, *b = a + nz, *middle = b + nz, *own = middle + nz;
     if (!all) return ac_fail(i, AC_FAILED, "there is not enough memory.");
     double from = i->now.from, to = i->now.to, changes = INFINITY;

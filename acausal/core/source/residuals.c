@@ -26,20 +26,20 @@
 /* Terms of each algebraic equation, added up, by the slopes where the step begins. Unknowns far below the largest are rounding,
    with terms as small. */
 static void find_terms(ac_rodas *r) {
-    const double *y = r->y;
+    const double *y = r->s.y;
     double *terms = r->terms, noise = 0;
-    memset(terms, 0, (size_t)r->n * sizeof *terms);
-    for (int32_t j = r->of.nx; j < r->n; j++) noise = fmax(noise, NOISE * fabs(y[j]));
-    for (int32_t j = 0; j < r->n; j++) {
+    memset(terms, 0, (size_t)r->s.n * sizeof *terms);
+    for (int32_t j = r->s.of.nx; j < r->s.n; j++) noise = fmax(noise, NOISE * fabs(y[j]));
+    for (int32_t j = 0; j < r->s.n; j++) {
         const double size = fmax(fabs(y[j]), noise);
-        for (int32_t e = r->of.start[j]; e < r->of.start[j + 1]; e++) terms[r->of.row[e]] += fabs(r->matrix[e]) * size;
+        for (int32_t e = r->s.of.start[j]; e < r->s.of.start[j + 1]; e++) terms[r->s.of.row[e]] += fabs(r->matrix[e]) * size;
     }
 }
 
 /* The largest of some residuals over the terms of its equation. */
 static double largest(const ac_rodas *r, const double *residual) {
     double most = 0;
-    for (int32_t k = r->of.nx; k < r->n; k++) {
+    for (int32_t k = r->s.of.nx; k < r->s.n; k++) {
         const double part = residual[k] == 0 ? 0 : fabs(residual[k]) / r->terms[k];
         if (part > most) most = part;
     }
@@ -48,8 +48,8 @@ static double largest(const ac_rodas *r, const double *residual) {
 
 /* Error of the states by what the algebraic equations leave, over tolerance; in b: how it is corrected. */
 static double correction(ac_rodas *r, const double *residual) {
-    memset(r->b, 0, (size_t)r->of.nx * sizeof *r->b);
-    memcpy(r->b + r->of.nx, residual + r->of.nx, (size_t)r->of.nz * sizeof *r->b);
+    memset(r->b, 0, (size_t)r->s.of.nx * sizeof *r->b);
+    memcpy(r->b + r->s.of.nx, residual + r->s.of.nx, (size_t)r->s.of.nz * sizeof *r->b);
     ac_lu_solve(r->lu, r->b);
     return ac_rodas_norm(r, r->b);
 }
@@ -57,8 +57,8 @@ static double correction(ac_rodas *r, const double *residual) {
 /* Whether what is left matters to no state: rates that differ so, were they to last, change none by more than its tolerance. Slopes alone
    do not tell: a law that has saturated where it does not belong has none. */
 static int idles(ac_rodas *r, const double *left) {
-    const double *time = r->request.time, span = time[r->request.outputs] - time[0];
-    for (int32_t k = 0; k < r->of.nx; k++) r->b[k] = span * (left[k] - r->there[k]);
+    const double *time = r->s.request.time, span = time[r->s.request.outputs] - time[0];
+    for (int32_t k = 0; k < r->s.of.nx; k++) r->b[k] = span * (left[k] - r->there[k]);
     return ac_rodas_norm(r, r->b) <= 1;
 }
 
@@ -66,17 +66,17 @@ static int idles(ac_rodas *r, const double *left) {
    way to another solution, they would not. */
 static int converges(ac_rodas *r, double end, double most) {
     static const double nearer[] = {0.25, 0.1}; /* as Newton's method in IDAS; less where the first two are as large */
-    double error = correction(r, r->there), least = error, *left = r->dense; /* the step has none yet */
+    double error = correction(r, r->there), least = error, *left = r->s.last.dense; /* the step has none yet */
     if (!(error <= 1)) return 0;
-    memcpy(r->stage, r->next, (size_t)r->n * sizeof *r->stage);
+    memcpy(r->stage, r->s.next, (size_t)r->s.n * sizeof *r->stage);
     for (int tries = 0; tries < 2; tries++) {
-        for (int32_t k = 0; k < r->n; k++) r->stage[k] += r->b[k];
-        ac_rodas_values(r, r->stage, end, left);
+        for (int32_t k = 0; k < r->s.n; k++) r->stage[k] += r->b[k];
+        ac_equations_at(&r->s, r->stage, end, left);
         if (!tries && error <= REST && idles(r, left)) return 1;
         error = correction(r, left);
-        if (error <= nearer[tries] * least && (error > REST || largest(r, left) <= nearer[tries] * most) && ac_all_finite(left, r->n)) {
-            memcpy(r->next, r->stage, (size_t)r->n * sizeof *r->next);
-            memcpy(r->there, left, (size_t)r->n * sizeof *r->there);
+        if (error <= nearer[tries] * least && (error > REST || largest(r, left) <= nearer[tries] * most) && ac_all_finite(left, r->s.n)) {
+            memcpy(r->s.next, r->stage, (size_t)r->s.n * sizeof *r->s.next);
+            memcpy(r->there, left, (size_t)r->s.n * sizeof *r->there);
             return 1;
         }
         least = fmin(least, error);
@@ -87,30 +87,30 @@ static int converges(ac_rodas *r, double end, double most) {
 /* Whether a step takes states further than their rates at its ends allow: beside a bend stages may lead unknowns far away, and what that
    does to the states is as large as the tolerance at most, but again in each of many short steps. */
 static int leaps(ac_rodas *r, double h) {
-    for (int32_t k = 0; k < r->of.nx; k++)
-        r->b[k] = fmax(0, fabs(r->next[k] - r->y[k]) - FURTHER * h * fmax(fabs(r->here[k]), fabs(r->there[k])));
+    for (int32_t k = 0; k < r->s.of.nx; k++)
+        r->b[k] = fmax(0, fabs(r->s.next[k] - r->s.y[k]) - FURTHER * h * fmax(fabs(r->here[k]), fabs(r->there[k])));
     return ac_rodas_norm(r, r->b) > LEAP;
 }
 
 /* Whether the algebraic equations are solved where a step leads, near enough for its tolerance. */
 int ac_rodas_follows(ac_rodas *r, double h) {
-    const double end = r->t + h;
+    const double end = r->s.t + h;
     find_terms(r);
-    ac_rodas_values(r, r->next, end, r->there);
-    if (!ac_all_finite(r->there, r->n)) return 0;
-    if (!r->of.nz) return 1;
-    const double least = fmax(fmin(LEFT * r->request.tolerance, CLOSE_LEFT), LEAST_LEFT), enough = fmax(least, r->pace.trusted);
-    for (int32_t k = 0; k < r->of.nz; k++) r->most[k] = fmax(r->most[k], r->terms[r->of.nx + k]);
+    ac_equations_at(&r->s, r->s.next, end, r->there);
+    if (!ac_all_finite(r->there, r->s.n)) return 0;
+    if (!r->s.of.nz) return 1;
+    const double least = fmax(fmin(LEFT * r->s.request.tolerance, CLOSE_LEFT), LEAST_LEFT), enough = fmax(least, r->pace.trusted);
+    for (int32_t k = 0; k < r->s.of.nz; k++) r->most[k] = fmax(r->most[k], r->terms[r->s.of.nx + k]);
     const double most = largest(r, r->there);
     r->pace.trusted *= FADES;
-    if (!(most <= enough) && !r->request.singular) {
+    if (!(most <= enough) && !r->s.request.singular) {
         if (!converges(r, end, most)) return 0;
         r->pace.trusted = fmin(ALIKE * most, MOST_LEFT);
     }
     if (r->pace.bent && leaps(r, h)) return 0;
-    for (int32_t k = 0; k < r->of.nz; k++) r->left[k] = fmax(r->left[k], fabs(r->there[r->of.nx + k]));
+    for (int32_t k = 0; k < r->s.of.nz; k++) r->left[k] = fmax(r->left[k], fabs(r->there[r->s.of.nx + k]));
     const int32_t sign = ac_lu_is_negative(r->lu) ? -1 : 1;
-    r->progress.turned += sign == -r->sign;
+    r->s.progress.turned += sign == -r->sign;
     if (!r->sign) r->sign = sign;
     return 1;
 }
@@ -118,21 +118,21 @@ int ac_rodas_follows(ac_rodas *r, double h) {
 /* Bring the unknowns where a step begins nearer to their equations; return whether they came nearer, and may come nearer still.
    Where these bend, what the last step left may be far from them, and a whole correction may lead further away. */
 static int returns(ac_rodas *r) {
-    if (!r->of.nz || r->request.singular) return 0;
+    if (!r->s.of.nz || r->s.request.singular) return 0;
     find_terms(r);
     const double left = largest(r, r->here);
     if (!(left > SOLVED)) return 0;
     correction(r, r->here);
-    if (!ac_all_finite(r->b, r->n)) return 0;
-    double part = 1, *found = r->dense; /* the step has none */
+    if (!ac_all_finite(r->b, r->s.n)) return 0;
+    double part = 1, *found = r->s.last.dense; /* the step has none */
     for (int tries = 0; tries <= HALVINGS; tries++, part /= 2) {
-        memcpy(r->stage, r->y, (size_t)r->n * sizeof *r->stage);
-        for (int32_t k = r->of.nx; k < r->n; k++) r->stage[k] += part * r->b[k];
-        ac_rodas_values(r, r->stage, r->t, found);
+        memcpy(r->stage, r->s.y, (size_t)r->s.n * sizeof *r->stage);
+        for (int32_t k = r->s.of.nx; k < r->s.n; k++) r->stage[k] += part * r->b[k];
+        ac_equations_at(&r->s, r->stage, r->s.t, found);
         const double now = largest(r, found);
-        if (ac_all_finite(found, r->n) && now < left) {
-            memcpy(r->y, r->stage, (size_t)r->n * sizeof *r->y);
-            memcpy(r->here, found, (size_t)r->n * sizeof *r->here);
+        if (ac_all_finite(found, r->s.n) && now < left) {
+            memcpy(r->s.y, r->stage, (size_t)r->s.n * sizeof *r->s.y);
+            memcpy(r->here, found, (size_t)r->s.n * sizeof *r->here);
             r->stale = 1;
             return left > NEAR || now <= NEARER * left;
         }
@@ -148,9 +148,9 @@ void ac_rodas_return(ac_rodas *r, double h) {
 
 /* Tell the most of the residuals after steps, over the most of the terms of its equation. */
 void ac_rodas_tell(ac_rodas *r) {
-    ac_progress *p = &r->progress;
+    ac_progress *p = &r->s.progress;
     p->left = 0;
-    for (int32_t k = 0; k < r->of.nz; k++) {
+    for (int32_t k = 0; k < r->s.of.nz; k++) {
         const double part = r->left[k] == 0 ? 0 : r->left[k] / r->most[k];
         if (!(part <= p->left)) p->left = isfinite(part) ? part : INFINITY;
     }
@@ -158,10 +158,10 @@ void ac_rodas_tell(ac_rodas *r) {
 
 /* Whether it is in doubt after a step that the algebraic equations were followed; each doubt is told once. */
 int ac_rodas_doubts(ac_rodas *r) {
-    ac_progress *p = &r->progress;
+    ac_progress *p = &r->s.progress;
     ac_rodas_tell(r);
-    if (p->left <= fmin(TOLERANCES * r->request.tolerance, MOST_LEFT) && !p->turned) return 0;
-    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
+    if (p->left <= fmin(TOLERANCES * r->s.request.tolerance, MOST_LEFT) && !p->turned) return 0;
+    memset(r->left, 0, (size_t)r->s.of.nz * sizeof *r->left);
     p->turned = r->sign = 0;
     return 1;
 }

@@ -1,21 +1,35 @@
 /* A run that records rows at outputs and after events, in slices. */
 #include "hybrid.h"
+#include "ida.h"
 
 #include <math.h>
 #include <string.h>
 
-void ac_run_begin(ac_instance *i, double time, double step, double tolerance, int32_t damping, const double *x, const double *z,
-                  const double *p, const double *c, const double *truth) {
+/* Choose the stepper, which is made when it is first asked for. */
+static int32_t choose(ac_instance *i, const ac_run_method *method) {
+    const int32_t multistep = method->method == AC_IDAS;
+    if (multistep && !i->idas) i->idas = ac_ida_make(&i->of->parts.model.equations);
+    if (multistep && !i->idas) return AC_FAILED;
+    if (multistep) ac_stepper_renew(i->idas);
+    i->stepper = multistep ? i->idas : &i->rodas->s;
+    i->multistep = method->multistep;
+    return AC_OK;
+}
+
+int32_t ac_run_begin(ac_instance *i, const ac_run_method *method, double time, const double *x, const double *z, const double *p,
+                     const double *c, const double *truth) {
     const ac_equations *e = &i->of->parts.model.equations;
     double between;
     ac_reset(i);
+    if (choose(i, method)) return AC_FAILED;
     ac_put(i->x, x, e->nx), ac_put(i->z, z, e->nz), ac_put(i->p, p, e->np), ac_put(i->c, c, e->nc);
     ac_put(i->truth, truth, i->of->watched);
-    i->now.time = i->now.from = i->now.to = time, i->now.longer = step;
-    i->now.tolerance = tolerance, i->now.damping = damping, i->now.simulates = 1, i->now.phase = AC_RUNNING;
+    i->now.time = i->now.from = i->now.to = time, i->now.longer = method->step;
+    i->now.tolerance = method->tolerance, i->now.damping = method->damps, i->now.simulates = 1, i->now.phase = AC_RUNNING;
     i->now.next = ac_next_instant(i, &between);
     i->energy[0] = i->energy[1] = 0;
     memset(&i->counts, 0, sizeof i->counts);
+    return AC_OK;
 }
 
 static void put_row(ac_instance *i, double time) {
@@ -82,13 +96,19 @@ int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state
     state->time = i->now.time, state->step = i->now.longer, state->hasty = i->now.hasty, state->weak = i->now.weak;
     state->supplied = i->energy[0], state->dissipated = i->energy[1];
     state->steps = i->counts.steps, state->refused = i->counts.refused;
-    state->values = i->counts.values, state->evaluations = i->counts.evaluations;
+    state->factors = i->counts.factors, state->values = i->counts.values, state->evaluations = i->counts.evaluations;
     state->begun = i->counts.begun;
     return end;
 }
 
-void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *peak, double *crossed) {
+void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *crossed) {
     const ac_equations *e = &i->of->parts.model.equations;
     ac_put(x, i->x, e->nx), ac_put(z, i->z, e->nz), ac_put(c, i->c, e->nc);
-    ac_put(truth, i->truth, i->of->watched), ac_put(peak, i->peak, i->of->watched), ac_put(crossed, i->crossed, i->of->watched);
+    ac_put(truth, i->truth, i->of->watched), ac_put(crossed, i->crossed, i->of->watched);
+}
+
+double ac_run_undefined(const ac_instance *i, double *x, double *z) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    ac_put(x, i->event_y, e->nx), ac_put(z, i->event_y + e->nx, e->nz);
+    return i->now.undefined;
 }

@@ -61,13 +61,13 @@ static int32_t solve(ac_instance *i, int32_t square, int32_t rows) {
 
 /* States and algebraic unknowns at the times of some samples, which lie in the last step. */
 void ac_sample_step(ac_instance *i, int32_t rows) {
-    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz;
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz, dense = i->stepper->method->rows;
     const double h = i->now.to - i->now.from;
     ac_samples *s = &i->samples;
     for (int32_t r = 0; r < rows; r++) {
         const double part = h > 0 ? fmin((s->time[r] - i->now.from) / h, 1) : 1;
-        ac_interpolate(n, i->before, i->after, i->dense, part, 0, nx, s->x + (ptrdiff_t)r * nx);
-        ac_interpolate(n, i->before, i->after, i->dense, part, nx, nz, s->z + (ptrdiff_t)r * nz);
+        ac_interpolate(n, dense, i->before, i->after, i->dense, part, 0, nx, s->x + (ptrdiff_t)r * nx);
+        ac_interpolate(n, dense, i->before, i->after, i->dense, part, nx, nz, s->z + (ptrdiff_t)r * nz);
     }
 }
 

@@ -7,7 +7,7 @@ import numpy as np
 from acausal.errors import SimulationError
 from acausal.policy import POLICY
 from acausal.solve.checks.separation import Violation, first_coincidence
-from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.looks import spread
 from acausal.solve.point import Point, Rows
 

@@ -14,7 +14,8 @@ import numpy as np
 
 from acausal.policy import POLICY
 from acausal.solve.checks.validity import separations
-from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.events.aside import integrate_aside
+from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Refusal
 from acausal.solve.looks import pace
 from acausal.solve.point import Point, Rows
@@ -96,7 +97,7 @@ class _Search:
         problem, times = self.integrator.problem, rows.times
         at = replace(problem.point(rows, k), constants=problem.point(rows, k + 1).constants)
         times = times[k] + length * (times[k + 1] - times[k]) * np.linspace(0, 1, MEETING.parts + 1)
-        found = self.integrator.trial(at, times, MEETING.steps)
+        found = integrate_aside(self.integrator, at, times, MEETING.steps)
         if isinstance(found, Refusal):
             return None
         return self.approach(found.since(at))

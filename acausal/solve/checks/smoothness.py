@@ -10,14 +10,14 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.memo import memoized
 from acausal.flatten.discontinuities import Promise
 from acausal.policy import POLICY
 from acausal.solve.checks.validity import Statements, compiled_statements
-from acausal.solve.events.between import between
-from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.looks import spread
 from acausal.solve.point import Rows
 from acausal.solve.results.evaluator import Evaluator
@@ -49,8 +49,13 @@ class _Samples:
         return self._values(self.outputs.rows[places])
 
     def inside(self, row: int, times: np.ndarray) -> np.ndarray:
-        """Values at times between an output point and the next."""
-        return self._values(between(self.integrator, self.outputs.rows[row : row + 2], times).rows)
+        """Values at times between an output point and the next, on the cubic through states and rates at both."""
+        ends, solver = self.outputs.rows[row : row + 2], self.integrator.consistent
+        constants = ends.constants[0]
+        ends, _ = solver(Rows.within(ends.times, ends.x, ends.z, constants))
+        x = scipy.interpolate.CubicHermiteSpline(ends.times, ends.x, solver.rates(ends))(times)
+        part = ((times - ends.times[0]) / (ends.times[1] - ends.times[0]))[:, None]
+        return self._values(Rows.within(times, x, ends.z[0] + part * (ends.z[1] - ends.z[0]), constants))
 
     def _values(self, rows: Rows) -> np.ndarray:
         solver = self.outputs.solver

@@ -12,9 +12,8 @@ from acausal.solve.checks.separation import coincidence_ahead
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope, undefined_equations
 from acausal.solve.initialization.newton import NoConvergence, algebraic
 from acausal.solve.initialization.redundancy import Redundancy, is_singular
-from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
-from acausal.solve.integrate.segment import approached
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
@@ -60,7 +59,7 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
         return f"{head} {failure.reason.removesuffix('.')}."
     if long := _too_long(problem, begun, integrator.span[1]):
         return f"{head} {failure.reason}.\n{long}"
-    near = approached(integrator, at, failure.time)
+    near = failure.at or at
     if met := coincidence_ahead(problem, near, failure.time):
         return met
     lines = [f"{head} {failure.reason}."]

@@ -14,20 +14,18 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.not_finite import cause
 from acausal.solve.diagnosis.singularity import undetermined
-from acausal.solve.diagnosis.undefined_conditions import undefined_conditions
+from acausal.solve.diagnosis.undefined_conditions import NO_VALUE, undefined_conditions
 from acausal.solve.events.agenda import Agenda
-from acausal.solve.events.ahead import Ahead
-from acausal.solve.events.between import work_between
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.hybrid import Hybrid, Passed
 from acausal.solve.events.instant import Cycling, Instants
-from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
+from acausal.solve.events.order_trial import OrderTrial
 from acausal.solve.events.rests import ends_of_rests
 from acausal.solve.initialization.newton import NoConvergence
-from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.ladder import Failure, Refusal, next_ways
-from acausal.solve.integrate.segment import segment
+from acausal.solve.integrate.integrator import Integrator
+from acausal.solve.integrate.ladder import Failure, Kind
+from acausal.solve.integrate.rescue import Rescue
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
 
@@ -60,9 +58,9 @@ class Course:
         self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
         settings = integrator.settings
         self.instants = Instants(problem, settings.tolerance, span, settings.nominal)
-        self.ahead = Ahead(integrator, self.instants, times)
         self.agenda = Agenda(self.guards, problem.p, np.union1d(times, self.breaks))
-        self.hybrid = Hybrid(self.ahead, times)
+        self.hybrid = Hybrid(integrator, self.instants, times)
+        self.rescue, self.orders = Rescue(integrator, times), OrderTrial(integrator, times)
         self.events: list[float] = []
         self.searched = 0  # those of them that were not passed at one go, which cost a hundred times as much
         self.recent: deque[float] = deque(maxlen=INSTANTS.most)
@@ -78,12 +76,13 @@ class Course:
         self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
         for end in ends:
             if at.time != self.times[0]:
+                at = replace(at)  # a break begins a new integration
                 now = self.agenda.between(at.time, end)
                 at, held = self._at_break(at, now, held), now
             self._refuse_undecided(at, end)
             for rest in ends_of_rests(self.integrator, at, end, self.times):
                 at = self._segment(at, rest)
-                self.ahead.begin()
+                self.hybrid.restart()
             at = self._segment(at, end)
         self._at_stop(at, held)
 
@@ -103,13 +102,12 @@ class Course:
         time = at.time + POLICY.agenda.after * (end - at.time)
         open_ = self.agenda.undecided(time)
         if open_ and (text := undefined_conditions(self.integrator.problem, replace(at, time=time), open_)):
-            raise Undecided(at.time, text)
+            raise Failure(at.time, text)
 
     def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:
         """Switch what the clock switches: the timed guards that hold from now on, and that held before."""
         if at.time in self.found and bool((on != held).any()):
             self._count(at.time, [self.guards.timed[k] for k in np.flatnonzero(on != held)])
-            self.ahead.stride.begin()
         return self._at_row(at, self.agenda.fired(on, held), self.agenda.constants(at.constants, on))
 
     def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
@@ -119,7 +117,6 @@ class Course:
         self.integrator.trace.put(-1, new)
         acted = new.differs(at if constants is None else replace(at, constants=constants))
         if acted and planned:
-            self.ahead.stride.begin()
             if self.events[-1:] != [at.time]:
                 self._count(at.time, self.guards.watched)
             self._refuse_chattering(at.time, self.guards.watched)
@@ -150,87 +147,34 @@ class Course:
 
     def _segment(self, at: Point, end: float) -> Point:
         while at.time < end:
-            if passed := self.hybrid.go(at, end, self.weak):
-                at = self._passed(passed)
-                if passed.refusal is None or self._changes_way(passed.refusal):
-                    continue
-            if not self.guards.watched:
-                at = segment(self.integrator, at, self.ahead.stride.grid(at.time, end))
-                self.ahead.stride.lengthen()
-                continue
-            instant, row = self.agenda.planned(at, at.time + self.ahead.locator.shortest) or (np.inf, np.inf)
-            target = min(instant, row, end)
-            at = self._advance(at, target)
-            if row <= end and target - self.ahead.locator.shortest <= at.time:
-                self.integrator.trace.delay(row)
-                at = replace(at, time=end) if row == end else self._at_row(replace(at, time=max(row, instant)))
+            at = self._passed(self.hybrid.go(at, min(end, self.rescue.until, self.orders.until), self.weak), end)
+            self.rescue.reached(at.time)
+            self.orders.reached(at.time)
             self.integrator.report(at.time)
         return at
 
-    def _changes_way(self, refusal: Refusal) -> bool:
-        """Go on in the next way after a refusal; return False if there is none."""
-        rescues = self.integrator.settings.rescues(self.times, self.integrator.loops)
-        following = next_ways(self.integrator.way, refusal, rescues)
-        if following:
-            self.integrator.take(following[0], refusal)
-            self.hybrid.begin()
-        return bool(following)
-
-    def _passed(self, passed: Passed) -> Point:
-        """Keep what the core has passed; let what it left to Python happen at its end."""
-        for leg in passed.legs:
-            self.integrator.trace.add(leg)
+    def _passed(self, passed: Passed, end: float) -> Point:
+        """Keep what the core has passed; let happen what it did not decide, or go on in another way."""
+        if passed.leg:
+            self.integrator.trace.add(passed.leg)
         self.events += passed.events
         self.recent.extend(passed.events)
-        self.ahead.stride.begin()
-        self.integrator.report(passed.at.time)
         crossed, at, self.weak = passed.crossed, passed.at, passed.weak
-        if crossed is None:
-            return at
-        self.ahead.locator.passed = 0.0
-        self._refuse_chattering(at.time, self.instants.watched[crossed].tolist() or self.guards.watched)
-        return self._jump(at, at.time, passed.work, crossed=crossed)
+        if crossed is not None:
+            self._refuse_chattering(at.time, self.instants.watched[crossed].tolist() or self.guards.watched)
+            return self._jump(at, at.time, passed.work, crossed=crossed)
+        if passed.refusal:
+            if passed.refusal.kind is Kind.UNDEFINED:
+                self._refuse_undefined(self.hybrid.undefined(at))
+            if passed.refusal.kind is not Kind.STEPS or not self.orders.decides(at):
+                self.rescue.go_on(passed.refusal, end)
+            self.hybrid.restart()
+        return at
 
-    def _advance(self, at: Point, end: float) -> Point:
-        """Go as far as one looks ahead at once, or to the first event."""
-        found = self.ahead.look(at, end)
-        if found.due is not None:
-            return self._jump(at, at.time, np.zeros(2), due=found.due)
-        if found.leg is None:
-            return found.at
-        if found.crossing:
-            return self._event(at, found.leg, found.crossing)
-        self.integrator.trace.add(found.leg)
-        return found.leg.end(at)
-
-    def _event(self, at: Point, leg: Leg, crossing: Crossing) -> Point:
-        """Keep what was before the event, apply it, and continue from it."""
-        after = crossing.after
-        out = after.value <= 0
-        width = self.instants.width(at)
-        # An event at an output may be found only from there on: what the legs before it have shown counts as well.
-        peak, self.ahead.locator.passed = np.maximum(crossing.peak, self.ahead.locator.passed), 0.0
-        self.weak = self.weak + 1 if np.all(peak[out] <= width[out]) else 0
-        delay = np.min(width[out] / np.maximum(np.abs(after.rate[out]), np.finfo(float).tiny), initial=np.inf)
-        snap = min(float(delay), POLICY.locate.snap * self.instants.span / (len(self.times) - 1))
-        times = np.array([*self.times, *self.breaks])
-        near = times[np.argmin(np.abs(times - after.time))]
-        on_output = abs(near - after.time) <= snap
-        label = float(near) if on_output and near > at.time else after.time
-        n = int(np.searchsorted(leg.times, min(label, after.time)))
-        last = at
-        if n:
-            before = leg.part(0, n)
-            self.integrator.trace.add(before)
-            last = before.end(at)
-        self._refuse_chattering(after.time, [int(k) for k in self.instants.watched[out]])
-        gained = work_between(self.integrator, replace(last, constants=after.at.constants), after.at)
-        reached = replace(after.at, time=max(label, after.time))
-        new = self._jump(reached, label, gained, crossed=out)
-        if on_output and near == at.time:
-            self.integrator.trace.put(-2, new)
-        self.ahead.stride.begin(after.time - at.time)
-        return new
+    def _refuse_undefined(self, at: Point) -> None:
+        """Refuse watched conditions that have no value."""
+        lost = self.instants.watched[np.isnan(self.instants.rates(at)[0])].tolist()
+        raise Failure(at.time, undefined_conditions(self.integrator.problem, at, lost) or NO_VALUE)
 
     def _happen(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
         """Let everything happen at an instant that has a row already."""

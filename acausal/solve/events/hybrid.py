@@ -1,31 +1,36 @@
-"""Run the core's hybrid loop over a segment, as far as it decides what happens at events."""
+"""Run the core's hybrid loop over a segment, slice by slice."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from acausal.compiler.core_equations import core_equations
-from acausal.core import Back, Doubt, End, Run, library
+from acausal.core import Back, Doubt, End, Run
 from acausal.core import Rows as Recorded
-from acausal.errors import InitializationError
+from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
-from acausal.solve.events.ahead import Ahead
+from acausal.solve.events.instant import Instants
+from acausal.solve.initialization.initial_modes import origins_text
+from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
 from acausal.solve.integrate.methods import METHODS
-from acausal.solve.integrate.one_step import at_once
+from acausal.solve.integrate.one_step import at_once, multistep_settings
+from acausal.solve.integrate.order_doubt import doubt, is_open
 from acausal.solve.integrate.stored import run_file
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
 
-SAMPLING = POLICY.sampling
+SAMPLING, RESCUE = POLICY.sampling, POLICY.rescue
 REASONS = {
     End.MANY: Kind.STEPS,
     End.SHORT: Kind.ERROR_TEST,
     End.UNSOLVED: Kind.CORRECTOR,
+    End.ROUNDING: Kind.ROUNDING,
     Doubt.SINGULAR: Kind.FLAT,
     Doubt.FOLD: Kind.UNSOLVABLE,
+    Doubt.UNDEFINED: Kind.UNDEFINED,
 }
 
 
@@ -35,23 +40,23 @@ class Passed:
 
     Attributes
     ----------
-    legs : list of Leg
-        Rows at outputs and after events; empty or one leg.
+    leg : Leg or None
+        Rows at outputs and after events.
     at : Point
         Point that was reached.
     events : list of float
         Times of the events in s.
-    crossed : array of bool, optional
-        Conditions that change at `at`, if the event there is left to the caller.
+    crossed : array of bool or None
+        Conditions that change at `at`, if the iteration of the event there failed.
     weak : int
         Consecutive events with hardly any motion between them.
     work : array, shape (2,)
         Supplied and dissipated energy in J since the last row.
-    refusal : Refusal, optional
+    refusal : Refusal or None
         Why the loop cannot go on from there.
     """
 
-    legs: list[Leg]
+    leg: Leg | None
     at: Point
     events: list[float]
     crossed: np.ndarray | None
@@ -61,72 +66,86 @@ class Passed:
 
 
 class Hybrid:
-    """Hybrid loop of the core, segment by segment.
+    """Hybrid loop of the core.
 
     Parameters
     ----------
-    ahead : Ahead
-        Search for events in Python, which takes over where the loop is in doubt.
+    integrator : Integrator
+        Integrates the run.
+    instants : Instants or None
+        Watched conditions and set-valued laws; None to integrate without events.
     times : array
         Output times in s.
+
+    Attributes
+    ----------
+    step : float
+        First step in s of what follows; chosen if 0.
     """
 
-    def __init__(self, ahead: Ahead, times: np.ndarray) -> None:
-        self.ahead, self.integrator, self.times = ahead, ahead.integrator, times
+    def __init__(self, integrator: Integrator, instants: Instants | None, times: np.ndarray) -> None:
+        self.integrator, self.instants, self.times, self.step = integrator, instants, times, 0.0
         self._made: tuple[Way, Run] | None = None
-        self._wait, self._next, self._worked = 0, 1, np.zeros(2)
-        self._limits: dict[str, int] = {}  # steps of a slice, and between two outputs
+        self._worked, self._hasty = np.zeros(2), False
+        self._steps = 0  # of a slice
         self._at: Point | None = None  # where the run pauses
-        self._laws = ahead.instants.laws
 
-    def go(self, at: Point, end: float, weak: int) -> Passed | None:
-        """Run one slice towards the end of a segment, after `weak` weak events; None if the loop does not run the model."""
+    def go(self, at: Point, end: float, weak: int) -> Passed:
+        """Run one slice towards the end of a segment, after `weak` weak events."""
         way = self.integrator.way
-        if at is not self._at and not self._begin(at, way, weak):
-            return None
+        if not (at is self._at and self._is_made(way)) and not self._begin(at, way, weak):
+            return Passed(None, at, [], None, weak, np.zeros(2), Refusal(Kind.UNSOLVABLE, at.time))
         run, self._at = self._run(at, way), None
         found = self._slice(run, end, way)
         back = found.back
-        self._laws.name(run.redundant(len(self._laws.laws)))
-        if run.state.hasty:
-            self.ahead.tell_of_haste(at.time)
-        self._wait = self._next if back is Back.DOUBT else 0
-        self._next = min(2 * self._next, SAMPLING.longest) if back is Back.DOUBT else 1
-        x, z, c, mode, peak, crossed = run.values()
-        self.ahead.begin(run.state.step)
-        self.ahead.locator.passed = np.maximum(self.ahead.locator.passed, peak)
-        point = Point(run.state.time, x, z, self.integrator.compiled.layout.constants(c), mode)
-        self._at = point if back in (Back.PAUSED, Back.FULL) else None
-        legs = self._legs(found)
+        if self.instants:
+            laws = self.instants.laws
+            laws.name(run.redundant(len(laws.laws)))
+            self._tell_of_haste(at.time, bool(run.state.hasty))
+        x, z, c, mode, crossed = run.values()
+        self.step = run.state.step
+        constants = self.integrator.compiled.layout.constants(c)
+        point = Point(run.state.time, x, z, constants, mode if self.instants else at.mode)
+        self._at = point if back in (Back.PAUSED, Back.FULL, Back.END) else None
+        leg = self._leg(found)
+        if leg and (fit := self.integrator.fit_rows(leg.rows, at.constants)) < len(leg.rows):
+            return self._until_worn(leg, 0 if len(found.events) else fit, at, weak)
         work = np.array([run.state.supplied, run.state.dissipated]) - self._worked
         changes = crossed if back is Back.EVENT else None
-        refusal = self._refusal(run, way) if back is Back.DOUBT else None
-        return Passed(legs, point, found.events.tolist(), changes, run.state.weak, work, refusal)
+        refusal = self._refusal(run, way, point) if back is Back.DOUBT else None
+        return Passed(leg, point, found.events.tolist(), changes, run.state.weak, work, refusal)
 
-    def begin(self) -> None:
-        """Run the next slice whatever came before."""
-        self._wait, self._next = 0, 1
+    def restart(self) -> None:
+        """Choose the next first step anew."""
+        self._at, self.step = None, 0.0
 
-    def _refusal(self, run: Run, way: Way) -> Refusal:
+    def undefined(self, at: Point) -> Point:
+        """Return the point near another one at which a condition has no value."""
+        assert self._made is not None
+        time, x, z = self._made[1].undefined()
+        return replace(at, time=time, x=x, z=z)
+
+    def _refusal(self, run: Run, way: Way, at: Point) -> Refusal:
         """Return why the loop came back in doubt."""
-        kind = REASONS.get(run.state.why, Kind.OTHER)
+        kind, longest = REASONS.get(run.state.why, Kind.OTHER), self._longest(way)
         if self.integrator.loops and way.method == "following" and kind in (Kind.ERROR_TEST, Kind.CORRECTOR):
             kind = Kind.FLAT  # multipliers grow without end near a singular configuration
-        return Refusal(kind, run.state.time)
+        if kind is Kind.STEPS and run.state.step * longest < RESCUE.stalled * (self.times[-1] - self.times[0]):
+            kind = Kind.STALLED
+        return Refusal(kind, run.state.time, at)
 
     def _begin(self, at: Point, way: Way, weak: int) -> bool:
-        """Begin at a point; return whether the core runs the model from there."""
-        if self._wait or not self._fits(way):
-            self._wait = max(0, self._wait - 1)
-            return False
-        integrator = self.integrator
+        """Begin at a point; return whether the equations have a solution there."""
+        integrator, problem, method = self.integrator, self.integrator.problem, METHODS[way.method]
         try:
             at = integrator.restarted(at, way.moves)
         except InitializationError:
             return False
-        run = self._run(at, way)
-        how = {"step": self.ahead.step, "tolerance": way.tolerance, "damps": METHODS[way.method].damps}
-        run.begin(at.time, at.x, at.z, integrator.problem.p, at.constants.vector, at.mode, **how)
+        run, how = self._run(at, way), None
+        if method.multistep:
+            how = multistep_settings(problem, integrator.settings, way, integrator.rounding(at))
+        given = at.time, at.x, at.z, problem.p, at.constants.vector, at.mode if self.instants else np.empty(0)
+        run.begin(*given, step=self.step, tolerance=way.tolerance, damps=method.damps, multistep=how)
         run.state.weak, self._worked = weak, np.zeros(2)
         return True
 
@@ -139,7 +158,7 @@ class Hybrid:
             return (self._counts(run) - before).tolist()
 
         with integrator.trace.counting(way.method, counts):
-            found = run.go(self.times, end, **self._limits)
+            found = run.go(self.times, end, steps=self._steps, longest=self._longest(way))
         integrator.consistent.evaluations += run.state.evaluations - evaluations
         return found
 
@@ -147,40 +166,53 @@ class Hybrid:
     def _counts(run: Run) -> np.ndarray:
         """Return the numbers of steps, factorisations, residual evaluations and restarts."""
         state = run.state
-        return np.array([state.steps, state.steps + state.refused, state.values, state.begun])
+        return np.array([state.steps, state.factors, state.values, state.begun])
 
     def _longest(self, way: Way) -> int:
-        """Return the largest number of steps between outputs, or the number after which vibrations are damped instead."""
-        settings = self.integrator.settings
-        first = settings.first(way, self.times if not self.integrator.compiled.guards.watched else self.times[[0, -1]])
-        ringing = first.ringing
-        return ringing.steps if ringing and settings.rings(ringing.interval) else first.max_steps
+        """Return the largest number of steps between two outputs or events."""
+        if way.max_steps is None and is_open(self.integrator, self.times):
+            return doubt(self.integrator, self.times)
+        return self.integrator.settings.longest(way, self.times)
 
-    def _legs(self, found: Recorded) -> list[Leg]:
-        """Return the recorded rows as legs of the trace."""
+    def _leg(self, found: Recorded) -> Leg | None:
+        """Return the recorded rows as a leg of the trace."""
         if not len(found.times):
-            return []
+            return None
         constants = self.integrator.compiled.layout.constants(found.c[-1])
         work, self._worked = found.work - self._worked, found.work[-1]
-        return [Leg(Rows(found.times, found.x, found.z, found.c), work, constants, 0)]
+        return Leg(Rows(found.times, found.x, found.z, found.c), work, constants, 0)
 
-    def _fits(self, way: Way) -> bool:
-        """Return whether the core runs the model."""
-        integrator = self.integrator
-        compiled = integrator.compiled
-        if not library() or not METHODS[way.method].marches or not compiled.nx:
-            return False
-        return not integrator.loops or way.moves
+    def _until_worn(self, leg: Leg, fit: int, at: Point, weak: int) -> Passed:
+        """Keep the rows of a slice, one without events, at which the states chosen for closed loops are fit."""
+        self._at = None
+        kept = leg.part(0, fit) if fit else None
+        refusal = None if kept else Refusal(Kind.WORN, at.time)
+        return Passed(kept, kept.end(at) if kept else at, [], None, weak, np.zeros(2), refusal)
+
+    def _tell_of_haste(self, time: float, hasty: bool) -> None:
+        """Warn once where samples may miss a change of a condition."""
+        if self._hasty or not hasty:
+            return
+        self._hasty, compiled = True, self.integrator.compiled
+        caution(
+            f"from t = {time:.6g} s on, conditions change faster than they are checked; a change that reverts in between is "
+            f"missed. One of these:\n{origins_text(compiled, compiled.guards.watched)}\n"
+            "Shorter steps mean more checks: simulate(..., tolerance=...)."
+        )
 
     def _run(self, at: Point, way: Way) -> Run:
         """Return the run, created anew if the configuration has changed."""
-        if self._made is None or self._made[0] is not way:
+        if not self._is_made(way):
             integrator = self.integrator
             c, problem = integrator.compiled, integrator.problem
-            content = run_file(problem, integrator.settings, at, way.tolerance)
-            sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched)
+            content = run_file(problem, integrator.settings, at, way, self.instants is not None)
+            sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched) if self.instants else 0
             room = min(SAMPLING.rows, 4 + SAMPLING.numbers // sum(sizes[:3]))
             self._made = way, Run(content, sizes, room)
-            steps = at_once(core_equations(c, False, way.moves))
-            self._limits = {"steps": steps, "longest": self._longest(way)}
+            self._steps = at_once(core_equations(c, False, way.moves))
+        assert self._made is not None
         return self._made[1]
+
+    def _is_made(self, way: Way) -> bool:
+        """Return whether the run is that of a way, but for the steps after which that is given up."""
+        return self._made is not None and replace(self._made[0], max_steps=way.max_steps) == way

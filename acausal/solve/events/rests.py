@@ -9,7 +9,7 @@ from acausal.compiler.core_equations import laws_of_time
 from acausal.compiler.memo import memoized_latest
 from acausal.core import library
 from acausal.policy import POLICY
-from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem

@@ -2,30 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import Any, TypeVar
 
 from acausal.policy import POLICY
+from acausal.solve.point import Point
 
 RESCUE = POLICY.rescue
-
-
-@dataclass(frozen=True)
-class Ringing:
-    """When to ask whether vibrations that outputs at some distance cannot show are in the way.
-
-    Attributes
-    ----------
-    steps : int
-        Steps for an output interval after which to ask, and to give up if so.
-    interval : float
-        Longest distance of outputs in s.
-    """
-
-    steps: int
-    interval: float
 
 
 @dataclass(frozen=True)
@@ -40,34 +23,17 @@ class Way:
         Whether the projection on the constraints moves along with them; the states are chosen once if not.
     tolerance : float
         Relative tolerance.
-    max_steps : int
-        Steps after which to give up.
+    max_steps : int or None
+        Steps between two outputs after which to give up; None for the patience of the run.
     order : int or None
         Highest order of the multistep method; None for the limit of the run.
-    gentle : bool
-        Whether to begin with a short step.
-    careful : bool
-        The same, and to factorise without reusing earlier pivots.
-    ringing : Ringing or None
-        Whether and when vibrations count as in the way.
     """
 
     method: str
     moves: bool
     tolerance: float
-    max_steps: int
+    max_steps: int | None = None
     order: int | None = None
-    gentle: bool = False
-    careful: bool = False
-    ringing: Ringing | None = None
-
-    def shared(self, parts: int) -> Way:
-        """Return it for outputs that are so many times as dense."""
-        ringing = self.ringing and replace(self.ringing, steps=-(-self.ringing.steps // parts))
-        return replace(self, max_steps=-(-self.max_steps // parts), ringing=ringing)
-
-
-Found = TypeVar("Found")
 
 
 class Kind(Enum):
@@ -83,6 +49,7 @@ class Kind(Enum):
     FLAT = "the loops pass a position in which their constraints are not independent"
     APART = "the loops came apart"
     UNSOLVABLE = "the equations have no solution there"
+    UNDEFINED = "a condition has no value"
     OTHER = "no way to go on was found"
 
 
@@ -96,55 +63,29 @@ class Refusal:
         The kind of reason.
     time : float
         Where it had got to, in s.
-    reached : Leg or None
-        Rows before that, where they were asked for.
+    at : Point or None
+        The last accepted point.
     """
 
     kind: Kind
     time: float
-    reached: Any = None
+    at: Point | None = None
 
 
 class Failure(Exception):
-    """A run cannot go on; `time` is where, `reason` what to tell the user, which is all if there is no `kind`."""
+    """A run cannot go on; `time` is where, `reason` what to tell the user, which is all if there is no `kind`.
 
-    def __init__(self, time: float, reason: str, kind: Kind | None = None) -> None:
+    `at` is the last accepted point, if the integrator knows one.
+    """
+
+    def __init__(self, time: float, reason: str, kind: Kind | None = None, at: Point | None = None) -> None:
         super().__init__(reason)
-        self.time, self.reason, self.kind = time, reason, kind
+        self.time, self.reason, self.kind, self.at = time, reason, kind, at
 
     @classmethod
     def of(cls, refusal: Refusal) -> Failure:
         """Return the failure that a refusal is, if nothing else helps."""
-        return cls(refusal.time, refusal.kind.value, refusal.kind)
-
-
-def accepted(found: Found | Refusal) -> Found:
-    """Return what was found; raise Failure if it is a refusal."""
-    if isinstance(found, Refusal):
-        raise Failure.of(found)
-    return found
-
-
-def read(said: str, begin: float, end: float) -> Refusal:
-    """Read a refusal from the message of IDAS, such as `At t = 0.5 and h = 1e-9, the error test failed repeatedly`.
-
-    Parameters
-    ----------
-    said : str
-        Its words; time counts from 0 to 1.
-    begin, end : float
-        Ends of the leg in s.
-    """
-    found = re.search(r"At t = ([-+.\deE]+)", said)
-    time = begin + float(found[1]) * (end - begin) if found else begin
-    words = {
-        "mxstep": Kind.STEPS,
-        "corrector": Kind.CORRECTOR,
-        "error test": Kind.ERROR_TEST,
-        "too much accuracy": Kind.ROUNDING,
-    }
-    kind = next((kind for word, kind in words.items() if word in said), Kind.OTHER)
-    return Refusal(kind, float(time))
+        return cls(refusal.time, refusal.kind.value, refusal.kind, refusal.at)
 
 
 @dataclass(frozen=True)
@@ -184,18 +125,22 @@ class Rescues:
         many = refusal.kind is Kind.STEPS and way.method == "following"
         return refusal.kind is Kind.FLAT or (many and self.loops and not self.damps)
 
+    @property
+    def careful(self) -> str:
+        """The method with a Newton iteration, if it may be taken."""
+        return "idas" if "idas" in self.methods else self.methods[0]
+
     def after(self, method: str) -> str:
         """Return the method that follows a refused one; the last one stays."""
         return self.methods[min(self.methods.index(method) + 1, len(self.methods) - 1)]
 
 
-def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
-    """Return the ways to try after a refused one, in this order; none if only shorter legs are left.
+def next_way(way: Way, refusal: Refusal, rescues: Rescues) -> Way | None:
+    """Return the way to go on after a refused one, None if there is none.
 
-    Flat positions of loops are left to the next method, which begins with chosen states. A quick way gives place to the
-    projection that moves where the chosen states became unfit, and to the next method, which damps vibrations and, without a
-    Newton iteration, gets past positions where the equations are singular. What comes after a careful way are the other
-    methods, then longer steps.
+    Singular configurations of loops are left to the next method, which begins with chosen states. Where the chosen states became
+    unfit, the projection moves. Where many steps follow vibrations that outputs do not show, these are damped. Else the method
+    with a Newton iteration takes over.
 
     Parameters
     ----------
@@ -206,21 +151,24 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     rescues : Rescues
         What may be changed.
     """
-    if way.careful:
-        most = max(RESCUE.loosest, rescues.tolerance)
-        looser = (min(float(f"{factor * rescues.tolerance:.6g}"), most) for factor in RESCUE.looser)
-        return tuple(
-            replace(way, method=method, tolerance=tolerance, max_steps=RESCUE.patient)
-            for tolerance in dict.fromkeys(looser)
-            for method in reversed(rescues.methods)
-            if (method, tolerance) != (way.method, way.tolerance)
-        )
     if rescues.is_flat(way, refusal):
         other = replace(way, method=rescues.after(way.method), moves=way.moves and not rescues.projects)
-        return () if other.method == way.method else (other,)
+        return None if other.method == way.method else other
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     if refusal.kind is Kind.STEPS and rescues.damps:
         changed = replace(changed, method=rescues.methods[-1])
-    elif refusal.kind is Kind.CORRECTOR and changed == way:
-        changed = replace(changed, method=rescues.after(way.method))
-    return () if changed == way else (changed,)
+    elif changed == way and way.method == rescues.methods[0]:
+        changed = replace(changed, method=rescues.careful)
+    return None if changed == way else changed
+
+
+def rescue_ways(way: Way, rescues: Rescues) -> list[Way]:
+    """Return the ways of one output interval where no way goes on: the other methods, then larger tolerances with all methods."""
+    most = max(RESCUE.loosest, rescues.tolerance)
+    looser = (min(float(f"{factor * rescues.tolerance:.6g}"), most) for factor in RESCUE.looser)
+    return [
+        replace(way, method=method, tolerance=tolerance, moves=way.moves or rescues.projects, max_steps=RESCUE.patient)
+        for tolerance in dict.fromkeys(looser)
+        for method in reversed(rescues.methods)
+        if (method, tolerance) != (way.method, way.tolerance)
+    ]

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.core import library, why_not
+from acausal.core import why_no_idas, why_not
+from acausal.core.sundials import REMEDY
+from acausal.errors import DeclarationError
 from acausal.policy import POLICY
-from acausal.solve.integrate.by_casadi import by_idas, by_rosenbrock
-from acausal.solve.integrate.by_core import ByCore
-from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
@@ -26,8 +24,6 @@ class Method:
     ----------
     name : str
         What it is called in `simulate` and in results.
-    prepare : callable
-        Returns the integration of a request.
     multistep : bool
         Whether its order has a limit. Steps of the others cost several times as much.
     damps : bool
@@ -35,25 +31,15 @@ class Method:
     """
 
     name: str
-    prepare: Callable[[Request], Integration]
     multistep: bool = False
     damps: bool = False
-
-    @property
-    def marches(self) -> bool:
-        """Whether it can be looked at after each step, see `March`."""
-        return not self.multistep and library() is not None
-
-
-def _damping(request: Request) -> Integration:
-    return ByCore(request, damps=True) if library() else by_rosenbrock(request)
 
 
 # In the order in which they are taken: the next one solves with a Newton iteration, the last one leaves less to follow.
 METHODS = {
-    "following": Method("rosenbrock", lambda request: ByCore(request, damps=False)),
-    "idas": Method("idas", by_idas, multistep=True),
-    "rosenbrock": Method("rosenbrock", _damping, damps=True),
+    "following": Method("rosenbrock"),
+    "idas": Method("idas", multistep=True),
+    "rosenbrock": Method("rosenbrock", damps=True),
 }
 
 
@@ -64,21 +50,28 @@ def chosen(method: str, max_order: int | None = None) -> tuple[str, ...]:
     ----------
     method, max_order
         As of `simulate`: a limit of the order asks for the multistep method.
+
+    Raises
+    ------
+    DeclarationError
+        If the core is missing, or IDAS is asked for and cannot be loaded.
     """
-    if method == "auto":
-        return tuple(METHODS) if library() and max_order is None else ("idas", "rosenbrock")
-    return ("idas",) if method == "resolve" else (method,)
+    if missing := why_not():
+        raise DeclarationError(f"the core cannot be used: {missing}.")
+    why = why_no_idas()
+    if method == "auto" and max_order is None:
+        return tuple(name for name in METHODS if not why or name != "idas")
+    if why and method != "rosenbrock":
+        raise DeclarationError(f"IDAS cannot be used: {why}; {REMEDY}.")
+    return {"auto": ("idas", "rosenbrock"), "resolve": ("idas",)}.get(method, (method,))
 
 
 def why_first(method: str, max_order: int | None) -> str:
     """Say why the first of the methods is taken first."""
-    why = why_not()
     if method != "auto":
-        return f"given; by CasADi, as the core is missing: {why}" if why and method == "rosenbrock" else "given"
+        return "given"
     if max_order is not None:
         return "idas, whose order has a limit, as one is given"
-    if why:
-        return f"idas, as the core is missing: {why}"
     return "rosenbrock takes less time at equal error"
 
 

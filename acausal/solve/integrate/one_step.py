@@ -7,13 +7,11 @@ damped instead of followed. The largest error of any state counts there: so few 
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from acausal.core import Equations
+from acausal.core import Equations, Multistep
 from acausal.policy import POLICY
-from acausal.solve.integrate.integration import Request
+from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.problem import Problem
 
@@ -45,8 +43,11 @@ def are_rates(problem: Problem) -> np.ndarray:
     return found
 
 
-def error_test(problem: Problem, settings: Settings, damps: bool) -> dict[str, Any]:
-    """Return how the core tests the error of a step: what `Rodas.begin` takes as size, rate, smooth, largest and singular.
+def multistep_settings(problem: Problem, settings: Settings, way: Way, floor: np.ndarray) -> Multistep:
+    """Return the settings of IDAS; algebraic unknowns do not count in its error test.
+
+    Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular configuration of
+    a loop they are enlarged.
 
     Parameters
     ----------
@@ -54,21 +55,15 @@ def error_test(problem: Problem, settings: Settings, damps: bool) -> dict[str, A
         The model.
     settings : Settings
         How the run is to be integrated.
-    damps : bool
-        Whether the method damps.
+    way : Way
+        How this leg is.
+    floor : array
+        Errors that rounding causes, see `rounding`.
     """
-    nominal = settings.nominal
-    size = sizes(problem, nominal, settings.spectrum.vibration) if damps else nominal[: problem.nx]
-    singular = damps and problem.compiled.constraints.size > 0
-    return {"size": size, "rate": are_rates(problem), "smooth": not damps, "largest": damps, "singular": singular}
+    newton = CALLS.newton_in_loops if problem.compiled.constraints.size else CALLS.newton
+    return Multistep(np.maximum(settings.nominal, floor / way.tolerance), settings.order(way), newton)
 
 
 def at_once(equations: Equations) -> int:
     """Return how many steps of the core take some hundredths of a second, for which an interrupt may wait."""
     return max(1, CALLS.at_once // (equations.values.size + equations.slopes.size))
-
-
-def first_step(request: Request) -> float:
-    """Return a first step that the fastest vibration resolves, as a fraction of the leg; 0 where there is none."""
-    fastest = request.settings.spectrum.fastest
-    return min(CALLS.first, 10.0 ** -np.ceil(np.log10(fastest * request.span))) if fastest > 0 else 0.0

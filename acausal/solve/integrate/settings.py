@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from acausal.core import library
 from acausal.policy import POLICY
-from acausal.solve.integrate.ladder import Rescues, Ringing, Way
+from acausal.solve.integrate.ladder import Rescues, Way
 from acausal.solve.integrate.order import Spectrum, order_limit
 
 RESCUE = POLICY.rescue
@@ -79,15 +78,9 @@ class Settings:
     @property
     def way(self) -> Way:
         """The way to begin with."""
-        # Steps of the core are long, and states that are chosen once wear out.
-        by_core = self.methods[0] != "idas" and library() is not None
-        moves = self.constraints == "projection" or (self.constraints == "auto" and by_core)
-        return Way(self.methods[0], moves, self.tolerance, RESCUE.long)
-
-    @property
-    def careful(self) -> str:
-        """The method that goes on where a whole segment was refused: one with a Newton iteration, if it may be taken."""
-        return "idas" if "idas" in self.methods else self.methods[0]
+        # A projection that moves would excite vibrations of elastic parts, which IDAS follows.
+        moves = self.constraints == "projection" or (self.constraints == "auto" and self.methods[0] != "idas")
+        return Way(self.methods[0], moves, self.tolerance)
 
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
@@ -108,10 +101,9 @@ class Settings:
             return max(RESCUE.fewest_long, RESCUE.long // n)
         return max(RESCUE.fewest_short, RESCUE.short // n)
 
-    def first(self, way: Way, times: np.ndarray) -> Way:
-        """Return a way with the patience of a first call."""
-        ringing = None
-        if way.method == "following":
-            steps = max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs))
-            ringing = Ringing(steps, float(np.max(np.diff(times))))
-        return replace(way, max_steps=self.patience(way, times), ringing=ringing)
+    def longest(self, way: Way, times: np.ndarray) -> int:
+        """Return the steps for an output interval after which a way is given up, for vibrations that outputs cannot show soon."""
+        most = way.max_steps or self.patience(way, times)
+        if way.method != "following" or not self.may_ring(times):
+            return most
+        return min(most, max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs)))

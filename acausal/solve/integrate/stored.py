@@ -13,6 +13,7 @@ from acausal.core.model_file import floats, framed, ints
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
 from acausal.solve.initialization.independent_constraints import closure_of
+from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.point import Point
@@ -42,17 +43,17 @@ def stored(problem: Problem, at: Point, works: bool, moves: bool) -> StoredModel
 
 
 @memoized
-def _runtime(compiled: CompiledModel, energies: bool) -> Runtime:
+def _runtime(compiled: CompiledModel, energies: bool, moves: bool, events: bool) -> Runtime:
     """Return the run-time object of a model for runs."""
-    parameters, watched = compiled.reduced.p, compiled.guards.watched
-    return Runtime(compiled, parameters, watched, levels(compiled), closure_of(compiled), energies)
+    parameters, watched = compiled.reduced.p, compiled.guards.watched if events else []
+    return Runtime(compiled, parameters, watched, levels(compiled), closure_of(compiled), energies, moves=moves)
 
 
 @memoized
-def _sections(compiled: CompiledModel, energies: bool) -> dict[str, bytes]:
+def _sections(compiled: CompiledModel, energies: bool, moves: bool, events: bool) -> dict[str, bytes]:
     """Sections that do not change from run to run."""
-    runtime, guards, r = _runtime(compiled, energies), compiled.guards, compiled.reduced
-    instants = guards.scheduled.function(r.p, r.constants)
+    runtime, guards, r = _runtime(compiled, energies, moves, events), compiled.guards, compiled.reduced
+    instants = guards.scheduled.function(r.p, r.constants) if events else NOTHING
     counts = guards.n_switches, guards.n_discretes, len(compiled.constraints.closures)
     nothing = runtime.tape(NOTHING)
     return {
@@ -70,7 +71,7 @@ def _sections(compiled: CompiledModel, energies: bool) -> dict[str, bytes]:
     }
 
 
-def run_file(problem: Problem, settings: Settings, at: Point, tolerance: float) -> bytes:
+def run_file(problem: Problem, settings: Settings, at: Point, way: Way, events: bool = True) -> bytes:
     """Return the model file of a run.
 
     Parameters
@@ -81,11 +82,13 @@ def run_file(problem: Problem, settings: Settings, at: Point, tolerance: float) 
         How it is to be integrated.
     at : Point
         Where it is, consistent.
-    tolerance : float
-        Relative tolerance.
+    way : Way
+        Its tolerance and projection.
+    events : bool, optional
+        Whether conditions are watched.
     """
     compiled, nominal = problem.compiled, settings.nominal
-    runtime, free = _runtime(compiled, settings.energy), np.empty(0, dtype=int)
+    runtime, free = _runtime(compiled, settings.energy, way.moves, events), np.empty(0, dtype=int)
     start = StoredModel(
         runtime.equations,
         at.time,
@@ -96,10 +99,10 @@ def run_file(problem: Problem, settings: Settings, at: Point, tolerance: float) 
     )
     follows = closing_scales(problem, at, free) if compiled.constraints.size else problem.nominal[: compiled.nx]
     sections = {
-        **_sections(compiled, settings.energy),
+        **_sections(compiled, settings.energy, way.moves, events),
         **start.start,
         "damped": floats(sizes(problem, nominal, settings.spectrum.vibration)),
-        "nominal": floats([settings.span, tolerance, *nominal, *problem.loop_scales, *follows]),
+        "nominal": floats([settings.span, way.tolerance, *nominal, *problem.loop_scales, *follows]),
         "natural": floats(nominal[compiled.nx :]),
         "token": b"run\0",
     }

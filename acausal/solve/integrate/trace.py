@@ -38,8 +38,6 @@ class Trace:
     loosened: list[float] = field(default_factory=list)
     orders: list[str] = field(default_factory=list)
     changes: list[str] = field(default_factory=list)
-    rough: bool = False
-    flat: list[float] = field(default_factory=list)
 
     def emptied(self) -> Trace:
         """Return a trace without rows in which the counts continue."""
@@ -71,6 +69,16 @@ class Trace:
         self.factorisations += factorisations
         self.residual_evaluations += evaluations
         self.methods[method] = self.methods.get(method, 0) + steps
+
+    def include(self, other: Trace) -> None:
+        """Add the counts of an integration beside the run."""
+        self.factorisations += other.factorisations
+        self.residual_evaluations += other.residual_evaluations
+        self.calls += other.calls
+        self.seconds += other.seconds
+        for method, steps in other.methods.items():
+            self.steps += steps
+            self.methods[method] = self.methods.get(method, 0) + steps
 
     @contextmanager
     def counting(self, method: str, counts: Callable[[], Sequence[int]]) -> Iterator[None]:
@@ -110,16 +118,12 @@ class Trace:
 
 @dataclass(frozen=True)
 class Leg:
-    """Rows of one call; integrals of power since its start, shape (n, 2); constants and steps.
-
-    `inside` returns rows at any times in it, algebraic unknowns nearly right, where the integrator knows them.
-    """
+    """Rows of one slice; integrals of power since its start, shape (n, 2); constants and steps."""
 
     rows: Rows
     energy: np.ndarray
     constants: Constants
     steps: int
-    inside: Callable[[np.ndarray], Rows] | None = None
 
     @property
     def times(self) -> np.ndarray:
@@ -138,9 +142,4 @@ class Leg:
     def part(self, first: int, last: int) -> Leg:
         """Return some of the rows, as if the call had begun at its start nevertheless."""
         some = slice(first, last)
-        return replace(self, rows=self.rows[some], energy=self.energy[some])
-
-    def every(self, parts: int) -> Leg:
-        """Return one row in so many, the last one of each."""
-        some = slice(parts - 1, None, parts)
         return replace(self, rows=self.rows[some], energy=self.energy[some])

@@ -16,31 +16,13 @@ from acausal.core import library
 X = ca.SX.sym("x", 2)
 
 
-def test_outputs_are_overwritten_and_cleared():
+def test_outputs_are_overwritten():
     call = Call(ca.Function("f", [X], [2 * X, ca.sum1(X)]))
     first = call(np.array([1.0, 2.0]))
     np.testing.assert_array_equal(first[0], [2, 4])
     call(np.array([3.0, 5.0]))
     np.testing.assert_array_equal(first[0], [6, 10])
     np.testing.assert_array_equal(first[1], [8])
-    call.clear()
-    assert all(np.isnan(output).all() for output in call.outputs)
-
-
-def test_a_failure_leaves_what_was_not_reached_undefined():
-    solve = ca.rootfinder("solve", "newton", {"x": X[0], "p": X[1], "g": X[0] ** 2 + X[1]}, {"max_iter": 5})
-    call = Call(solve)
-    call.inputs[0][:], call.inputs[1][:] = 1.0, 2.0
-    call.clear()
-    done, _ = call.attempt()
-    assert not done
-    call.inputs[1][:] = -4.0
-    call.inputs[0][:] = 2.1
-    assert call.attempt()[0]
-    np.testing.assert_allclose(call.outputs[0], 2.0)
-    assert call.stats["success"]
-    call.clear()
-    assert call.stats == {}
 
 
 @pytest.mark.parametrize("n", [1, 2, AT_ONCE, AT_ONCE + 1, 3 * AT_ONCE - 1])

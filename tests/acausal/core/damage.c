@@ -1,6 +1,7 @@
 /* Damage a stored model or unit in every way: damage FILE N. Each byte changed and each length cut has to be refused; with a
    checksum that fits, each byte changed and N random changes have to be refused or integrated. Prints how many random ones were
    integrated. */
+#include "rodas.h"
 #include "unit.h"
 
 #include <stdio.h>
@@ -106,15 +107,15 @@ static int refused(const unsigned char *bytes, size_t length) {
     double time[OUTPUTS + 1], integral[2 * OUTPUTS], *x = calloc(OUTPUTS * (nx + nz) + 1, sizeof *x);
     for (int k = 0; k <= OUTPUTS; k++) time[k] = m->time + 1e-3 * k;
     const ac_request request = {
-        .tolerance = 1e-4, .size = m->size, .rate = m->rate, .smooth = 1, .most = STEPS, .outputs = OUTPUTS,
+        .tolerance = 1e-4, .size = m->size, .rate = m->rate, .smooth = 1, .most = STEPS, .share = 1, .outputs = OUTPUTS,
         .time = time, .x = x, .z = x + OUTPUTS * nx, .integral = integral,
     };
     ac_progress done;
     ac_rodas *r = ac_rodas_make(&m->equations);
     if (!x || !r) exit(2);
-    ac_rodas_begin(r, &request, m->x, m->z, m->p, m->c);
-    ac_rodas_go(r, STEPS, &done);
-    ac_rodas_free(r);
+    ac_stepper_begin(&r->s, &request, m->x, m->z, m->p, m->c);
+    ac_stepper_go(&r->s, STEPS, &done);
+    ac_stepper_free((ac_stepper *)r);
     free(x);
     ac_model_free(m);
     return 0;

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from acausal.core import End, Rodas, StoredModel
+from acausal.core import End, Stepper, StoredModel
 from acausal.core.build.compiling import CORE, FLAGS
 from acausal.policy import POLICY
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
@@ -78,9 +78,11 @@ class Replayed:
         return self.rows[:, 1 : 1 + len(self.names)]
 
 
-def replayed(command: list[str], path: Path, span: float, outputs: int, tolerance: float) -> Replayed:
+def replayed(
+    command: list[str], path: Path, span: float, outputs: int, tolerance: float, library: str = ""
+) -> Replayed:
     """Integrate a file by a driver."""
-    given = [*command, str(path), repr(span), str(outputs), repr(tolerance)]
+    given = [*command, str(path), repr(span), str(outputs), repr(tolerance), *([library] if library else [])]
     done = subprocess.run(given, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     names, *rows, last = done.stdout.splitlines()
@@ -89,14 +91,13 @@ def replayed(command: list[str], path: Path, span: float, outputs: int, toleranc
     return Replayed(tuple(names.split("\t")[:-1]), found, End(int(end)), tuple(map(int, counts)), float(time))
 
 
-def integrated(model: StoredModel, span: float, outputs: int, tolerance: float) -> Replayed:
+def integrated(model: StoredModel, span: float, outputs: int, tolerance: float, method: str = "rodas") -> Replayed:
     """Integrate a model by the library."""
-    rodas, times = Rodas(model.equations), model.time + span * np.arange(outputs + 1) / outputs
+    stepper, times = Stepper(model.equations, method), model.time + span * np.arange(outputs + 1) / outputs
     given = (model.x, model.z, model.p, model.c)
-    found = rodas.begin(
-        times, *given, size=model.size, rate=model.rate, smooth=True, tolerance=tolerance, most=1_000_000
-    )
-    end, done = rodas.go(1_000_000), rodas.progress
+    size = model.size if method == "rodas" else np.append(model.size, np.ones(model.equations.nz))
+    found = stepper.begin(times, *given, size=size, rate=model.rate, smooth=True, tolerance=tolerance, most=1_000_000)
+    end, done = stepper.go(1_000_000), stepper.progress
     rows = np.column_stack([times[1:], found.x, found.z, found.integral])[: done.written]
     counts = done.steps, done.refused, done.slopes, done.values, done.pivots
     return Replayed(model.names, rows, end, counts, done.time)

@@ -13,7 +13,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from acausal.core import End, StoredModel, library
+from acausal.core import End, StoredModel, library, sundials, why_no_idas
 from acausal.core.build.compiling import CORE, own_compiler
 from acausal.core.model_file import VERSION, framed
 from acausal.core.tape import KINDS
@@ -61,8 +61,9 @@ def why(content: bytes) -> int:
     return found.value
 
 
-def same(path: Path, name: str, command: list[str], span: float) -> None:
-    own, found = integrated(scene(name), span, 20, 1e-6), replayed(command, path, span, 20, 1e-6)
+def same(path: Path, name: str, command: list[str], span: float, library: str = "") -> None:
+    own = integrated(scene(name), span, 20, 1e-6, "ida" if library else "rodas")
+    found = replayed(command, path, span, 20, 1e-6, library)
     assert (found.names, found.end, found.counts, found.time) == (own.names, own.end, own.counts, own.time)
     assert found.end == End.DONE
     assert found.rows.tobytes() == own.rows.tobytes()
@@ -88,6 +89,14 @@ def test_a_scene_reads_no_memory_that_is_not_its_own(name, made, tmp_path):
         pytest.skip("there is no valgrind")
     watched = ["valgrind", "--quiet", "--leak-check=full", "--error-exitcode=9", str(made("replay.c"))]
     same(written(name, tmp_path), name, watched, SPANS[name] / 10)
+
+
+@pytest.mark.parametrize("name", ["simple-pendulum", "four-bar", "spin-up"])
+def test_idas_under_the_sanitisers_is_the_same_bit_by_bit(name, made, tmp_path):
+    if why_no_idas():
+        pytest.skip(why_no_idas())
+    command = [str(made("replay.c", sanitized=True))]
+    same(written(name, tmp_path), name, command, SPANS[name] / 10, str(sundials.path()))
 
 
 def damaged(made, file: Path, changes: int) -> None:

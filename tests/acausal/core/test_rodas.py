@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from acausal.core import End, Equations, Rodas, make_equations, with_powers
+from acausal.core import End, Equations, Stepper, make_equations, with_powers
 from acausal.core.library import Progress
 
 
@@ -52,7 +52,7 @@ class Found:
     progress: Progress
 
 
-def integrated(rodas: Rodas, times, *given, at_once=1_000_000, total=1_000_000, **options) -> Found:
+def integrated(rodas: Stepper, times, *given, at_once=1_000_000, total=1_000_000, **options) -> Found:
     outputs, end = rodas.begin(times, *given, **options), End.MORE
     while end == End.MORE and total > 0:
         end = rodas.go(min(at_once, total))
@@ -63,7 +63,7 @@ def integrated(rodas: Rodas, times, *given, at_once=1_000_000, total=1_000_000, 
 
 def integrate(e: Equations, times: np.ndarray, x, z=(), p=(3.0,), tolerance=1e-6, **options) -> Found:
     given = (np.array(v, dtype=float) for v in (x, z, p, ()))
-    return integrated(Rodas(e), times, *given, size=np.ones(e.nx), tolerance=tolerance, **options)
+    return integrated(Stepper(e), times, *given, size=np.ones(e.nx), tolerance=tolerance, **options)
 
 
 def test_steps_grow_as_the_order_says_and_errors_follow_the_tolerance():
@@ -104,7 +104,7 @@ def test_vibrations_that_errors_do_not_show_are_damped():
     """L-stable: a vibration of 1e6 rad/s within the tolerance is gone after a few steps."""
     e = equations(lambda x, z, t, p: ca.vertcat(x[1], -(p**2) * x[0]), nx=2)
     found = integrated(
-        Rodas(e),
+        Stepper(e),
         *(np.array(v, dtype=float) for v in ([0, 1], [1e-9, 0], [], [1e6], [])),
         size=np.array([1.0, 1e6]),
         tolerance=1e-6,
@@ -126,7 +126,7 @@ def test_steps_in_parts_and_other_threads_change_no_bit():
 
 def test_one_integrator_is_used_again_for_other_parameters():
     e = equations(lambda x, z, t, p: -p * x)
-    rodas, times, size = Rodas(e), np.array([0, 1.0]), np.ones(1)
+    rodas, times, size = Stepper(e), np.array([0, 1.0]), np.ones(1)
     for p in (1.0, 50.0, 0.0, 1.0):
         given = (np.array(v) for v in ([1.0], [], [p], []))
         found = integrated(rodas, times, *given, size=size, tolerance=1e-8)
@@ -171,7 +171,9 @@ def vibration(amplitude: float, **options) -> Found:
 
     e = equations(ode, nx=4)
     given = (np.array(v, dtype=float) for v in ([1, 0, amplitude, 0], [], [1e3], []))
-    return integrated(Rodas(e), np.array([0, 1.0]), *given, size=np.ones(4), tolerance=1e-3, first_step=1e-3, **options)
+    return integrated(
+        Stepper(e), np.array([0, 1.0]), *given, size=np.ones(4), tolerance=1e-3, first_step=1e-3, **options
+    )
 
 
 def test_errors_of_rates_leave_out_what_steps_do_not_resolve():
@@ -199,7 +201,7 @@ def test_the_largest_error_counts_whatever_rests_beside_it(largest):
         x[0] = 1.0
         given = x, np.zeros(0), np.zeros(1), np.zeros(0)
         options = {"size": size, "tolerance": 1e-6, "first_step": 1e-2, "largest": largest}
-        return integrated(Rodas(e), np.array([0, 20.0]), *given, **options)
+        return integrated(Stepper(e), np.array([0, 20.0]), *given, **options)
 
     alone, beside = found(0), found(200)
     if largest:
@@ -219,7 +221,7 @@ def test_a_limit_that_was_reached_can_be_raised_without_a_trace():
     e, start = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
 
     def found(*limits: int) -> tuple[End, bytes]:
-        rodas = Rodas(e)
+        rodas = Stepper(e)
         first, *others = limits
         out = rodas.begin(TIMES[[0, -1]], *start, size=np.ones(2), tolerance=1e-9, most=first)
         end = rodas.go(2**62)
@@ -235,7 +237,7 @@ def test_a_limit_that_was_reached_can_be_raised_without_a_trace():
 
 def test_steps_are_kept():
     e, given = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
-    rodas = Rodas(e)
+    rodas = Stepper(e)
     rodas.begin(TIMES, *given, size=np.ones(2), tolerance=1e-9, room=8)
     times, end = [], End.MORE
     while end == End.MORE:
@@ -250,7 +252,7 @@ def test_steps_are_kept():
 
 def test_it_goes_on_from_other_values():
     e, given = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
-    rodas = Rodas(e)
+    rodas = Stepper(e)
     found = rodas.begin(TIMES, *given, size=np.ones(2), tolerance=1e-9, room=8)
     rodas.go(8)
     time, x, _ = rodas.last
@@ -266,7 +268,7 @@ def oscillator(**options) -> Found:
     """A mass at 1 m/s on a spring of 1e6 rad/s, over 100 s in steps of any length."""
     e = equations(lambda x, z, t, p: ca.vertcat(x[1], -(p**2) * x[0]), nx=2)
     given = (np.array(v, dtype=float) for v in ([0, 1], [], [1e6], []))
-    return integrated(Rodas(e), np.array([0, 100.0]), *given, size=np.ones(2), tolerance=1e-4, **options)
+    return integrated(Stepper(e), np.array([0, 100.0]), *given, size=np.ones(2), tolerance=1e-4, **options)
 
 
 @pytest.mark.parametrize("first_step", [1.0, 0.0])
@@ -281,7 +283,7 @@ def driven(ode, rate: float, span: float, tolerance: float) -> Found:
     e = equations(lambda x, z, t, p: ca.vertcat(x[1], ode(x[0], t, p)), nx=2)
     given = (np.array(v, dtype=float) for v in ([0, 0], [], [rate], []))
     return integrated(
-        Rodas(e), np.array([0, span]), *given, size=np.ones(2), tolerance=tolerance, rate=np.array([0, 1])
+        Stepper(e), np.array([0, span]), *given, size=np.ones(2), tolerance=tolerance, rate=np.array([0, 1])
     )
 
 
@@ -309,7 +311,7 @@ def test_steps_are_known_everywhere_between_their_ends():
     e, given = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
     errors = []
     for tolerance in (1e-5, 1e-7, 1e-9):
-        rodas = Rodas(e)
+        rodas = Stepper(e)
         rodas.begin(TIMES, *given, size=np.ones(2), tolerance=tolerance, room=4, curves=True)
         worst, steps, end = 0.0, 0, End.MORE
         while end == End.MORE:
@@ -339,7 +341,7 @@ def test_the_sign_of_the_determinant_is_told_whichever_pivots_are_chosen(seed, t
         A[4, 4] = 0.7531 - t if turns else 3.0
         return A[order, :]
 
-    rodas = Rodas(equations(lambda x, z, t, p: -x, lambda x, z, t, p: matrix(t) @ z - ca.DM(right), nz=n, np=0))
+    rodas = Stepper(equations(lambda x, z, t, p: -x, lambda x, z, t, p: matrix(t) @ z - ca.DM(right), nz=n, np=0))
     x, none, z = np.ones(1), np.empty(0), np.linalg.solve(ca.DM(ca.evalf(matrix(0))).full(), right)
     found = integrated(rodas, np.linspace(0, 1.5, 40), x, z, none, none, size=x, tolerance=1e-6)
     assert rodas.progress.pivots > 1

@@ -11,7 +11,7 @@ import pytest
 import acausal as ac
 from acausal import fixed
 from acausal.core import library
-from acausal.core.rodas import Rodas
+from acausal.core.stepper import Stepper
 from acausal.locks import LOCK, exclusive, unlocked
 from models import CarAxis, NFourBar
 from tests.acausal.solve.test_threads import TASKS, Pendulum, assert_same, read
@@ -32,14 +32,14 @@ def test_whatever_others_do_while_the_core_integrates(monkeypatch, model, name, 
     compiled, options = ac.compile(model), {"intervals": 20, "energy": True, **options}
     others = [{"parameters": {name: value}}, {"parameters": {name: value}, "method": "idas"}]
     expected = [read(ac.simulate(compiled, **{**options, **other})) for other in ({}, *others)]
-    own, calls = Rodas._go, []
+    own, calls = Stepper._go, []
 
     def go(self, *arguments):
         calls.append(len(calls))
         if len(calls) > 10:
             return own(self, *arguments)
         with monkeypatch.context() as patch:
-            patch.setattr(Rodas, "_go", own)
+            patch.setattr(Stepper, "_go", own)
             before = read(ac.simulate(compiled, **{**options, **others[0]}))
             end = own(self, *arguments)
             after = read(ac.simulate(compiled, **{**options, **others[1]}))
@@ -47,7 +47,7 @@ def test_whatever_others_do_while_the_core_integrates(monkeypatch, model, name, 
         assert_same([before, after], expected[1:])
         return end
 
-    monkeypatch.setattr(Rodas, "_go", go)
+    monkeypatch.setattr(Stepper, "_go", go)
     assert_same([read(ac.simulate(compiled, **options))], expected[:1])
     assert calls or compiled.guards.watched  # with events, `Run` goes on
 
@@ -67,8 +67,8 @@ def others_may_enter() -> bool:
 
 def watch(monkeypatch, look):
     """Let a function look on at each call of the core."""
-    own = Rodas._go
-    monkeypatch.setattr(Rodas, "_go", lambda self, *arguments: (look(), own(self, *arguments))[1])
+    own = Stepper._go
+    monkeypatch.setattr(Stepper, "_go", lambda self, *arguments: (look(), own(self, *arguments))[1])
 
 
 @CORE

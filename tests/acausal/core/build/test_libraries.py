@@ -45,7 +45,7 @@ def declared() -> set[str]:
     return set(re.findall(r"AC_PUBLIC[^;]*?\b(ac_\w+)\(", headers))
 
 
-def test_every_function_of_the_header_is_taken():
+def test_every_function_of_the_headers_is_taken():
     stored = {"ac_model_read", "ac_model_free"}  # for programs in C, which read files of models
     assert set(LIBRARY.FUNCTIONS) == declared() - stored
 

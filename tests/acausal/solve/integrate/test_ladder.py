@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from acausal.solve.integrate.ladder import Failure, Kind, Refusal, Rescues, Way, accepted, next_ways, read
+from acausal.solve.integrate.ladder import Failure, Kind, Refusal, Rescues, Way, accepted, next_ways
 
 QUICK = Way("idas", moves=False, tolerance=1e-6, max_steps=100)
 AUTO = Rescues(("idas", "rosenbrock"), projects=True, loops=True, damps=True, tolerance=1e-6)
@@ -85,25 +85,6 @@ def test_no_tolerance_becomes_smaller_or_looser_than_1e_4(tolerance):
     found = next_ways(replace(QUICK, careful=True, tolerance=tolerance), Refusal(Kind.OTHER, 0.5), rescues)
     assert [way.tolerance for way in found] == sorted({way.tolerance for way in found} - {tolerance})
     assert all(tolerance < way.tolerance <= 1e-4 for way in found)
-
-
-@pytest.mark.parametrize(
-    ("said", "kind", "time"),
-    [
-        ("At t = 0.5, mxstep steps taken before reaching tout.", Kind.STEPS, 3.0),
-        (
-            "At t = 0.25 and h = 1e-9, the corrector convergence failed repeatedly or with |h| = hmin.",
-            Kind.CORRECTOR,
-            2.5,
-        ),
-        ("At t = 0 and h = 1e-12, the error test failed repeatedly or with |h| = hmin.", Kind.ERROR_TEST, 2.0),
-        ("something else", Kind.OTHER, 2.0),
-        ("", Kind.OTHER, 2.0),
-    ],
-)
-def test_what_an_integrator_says(said, kind, time):
-    found = read(said, 2.0, 4.0)
-    assert (found.kind, found.time) == (kind, time)
 
 
 def test_a_refusal_that_nothing_mends_is_a_failure():

@@ -11,7 +11,8 @@ import pytest
 import acausal as ac
 from acausal import Model, Scalar, der, fixed, output, reinit, time, variable, when
 from acausal.core import library
-from acausal.solve.integrate.methods import METHODS, chosen, why_first
+from acausal.errors import DeclarationError
+from acausal.solve.integrate import methods
 from acausal.solve.integrate.order import eigenvalues_of
 from components.rotational import Damper
 from models import FourBar, NFourBar
@@ -143,14 +144,10 @@ def test_too_many_vibrations_are_damped_unless_digits_are_asked_for():
     assert "damps vibrations" in loose.method_reason
 
 
-def test_without_the_core_idas_is_first(monkeypatch):
-    for place in ("library", "why_not"):
-        monkeypatch.setattr(f"acausal.solve.integrate.methods.{place}", lambda: None)
-    monkeypatch.setattr("acausal.solve.integrate.methods.why_not", lambda: "it was not built")
-    assert chosen("auto") == ("idas", "rosenbrock")
-    assert "it was not built" in why_first("auto", None)
-    assert [METHODS[name].damps for name in chosen("auto")] == [False, True]
-    result = spring(method="rosenbrock", tolerance=1e-6)
-    assert result["x"][-1] == pytest.approx(np.cos(10.0), abs=1e-4)
-    assert result.stats.method_reason.endswith("by CasADi, as the core is missing: it was not built")
-    assert why_first("idas", None) == "given"
+def test_without_idas_the_others_work(monkeypatch):
+    monkeypatch.setattr(methods, "why_no_idas", lambda: "it was not found")
+    assert "idas" not in methods.chosen("auto")
+    assert methods.chosen("rosenbrock") == ("rosenbrock",)
+    for given in (("idas", None), ("resolve", None), ("auto", 2)):
+        with pytest.raises(DeclarationError, match="IDAS cannot be used: it was not found; take method="):
+            methods.chosen(*given)

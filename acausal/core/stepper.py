@@ -1,30 +1,29 @@
-"""The one-step method of the core."""
+"""Steppers of the core: integrators behind one interface."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from ctypes import byref, pointer
-from dataclasses import dataclass, replace
+from ctypes import byref
+from dataclasses import dataclass
 from enum import IntEnum
-from functools import cached_property
 
-import casadi as ca
 import numpy as np
 
 from acausal.core.curve import Curve
-from acausal.core.library import EquationsData, Pool, Progress, RequestData, address, loaded
-from acausal.core.tape import Tape, make_tape
-from acausal.instructions import READABLE
+from acausal.core.equations import Equations
+from acausal.core.library import Progress, RequestData, address, loaded
 from acausal.locks import unlocked
 from acausal.signals import Signals
-from acausal.symbols import dense
+
+# Rows of coefficients of the interpolant of each method.
+ROWS = {"rodas": 3, "ida": 4}
 
 
 class End(IntEnum):
     """How an integration ended.
 
-    At its last output; after the steps it was given; with too many between two outputs; where no step was short enough,
-    for the tolerance (`SHORT`) or for the equations to have a value and a regular Jacobian (`UNSOLVED`); without memory.
+    At its last output; after the steps it was given; with too many between two outputs; by step size underflow, of the error
+    test (`SHORT`) or as the equations had no value or no regular Jacobian (`UNSOLVED`); without memory; as the tolerance is
+    below round-off.
     """
 
     DONE = 0
@@ -33,85 +32,7 @@ class End(IntEnum):
     SHORT = 3
     UNSOLVED = 4
     MEMORY = 5
-
-
-@dataclass(frozen=True, eq=False)
-class Equations:
-    """Equations x' = f, 0 = g of states and algebraic unknowns, and what is integrated besides, as tapes.
-
-    Attributes
-    ----------
-    nx, nz, np, nc : int
-        Numbers of states, algebraic unknowns, parameters and constants of a segment.
-    values, slopes, powers : Tape
-        f and g; entries of their Jacobian, and their derivatives by time where they depend on it; at most two powers.
-    start, row, diagonal : arrays of int
-        Sparsity of the Jacobian in columns, and the places in it of the diagonal of the states.
-    """
-
-    nx: int
-    nz: int
-    np: int
-    nc: int
-    values: Tape
-    slopes: Tape
-    powers: Tape | None
-    start: np.ndarray
-    row: np.ndarray
-    diagonal: np.ndarray
-
-    @cached_property
-    def data(self) -> EquationsData:
-        """What the library takes; it holds addresses of the arrays of these equations."""
-        tapes = (self.values.data, self.slopes.data, self.powers.data if self.powers else None)
-        return EquationsData(
-            *(self.nx, self.nz, self.np, self.nc),
-            *(None if tape is None else pointer(tape) for tape in tapes),
-            *(array.ctypes.data for array in (self.start, self.row, self.diagonal)),
-        )
-
-    @cached_property
-    def pool(self) -> Pool:
-        """Memory of the method for these equations."""
-        return Pool("rodas", self.data)
-
-
-def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX) -> Equations:
-    """Return equations as tapes.
-
-    Parameters
-    ----------
-    x, z, t, p, c : casadi.SX
-        States, algebraic unknowns, time, parameters and constants of a segment.
-    ode, alg : casadi.SX
-        Derivatives of the states, and residuals.
-    """
-    nx, nz = x.numel(), z.numel()
-    y, F = ca.vertcat(x, z), ca.vertcat(dense(ode), dense(alg))
-    J = ca.jacobian(F, y)
-    own = ca.Sparsity.triplet(nx + nz, nx + nz, list(range(nx)), list(range(nx)))
-    pattern = J.sparsity() + own
-    entries = ca.project(J, pattern).nz[:]
-    by_time = ca.jacobian(F, t)
-    slopes = ca.vertcat(entries, dense(by_time)) if by_time.nnz() else entries
-    arguments = [x, z, t, p, c]
-
-    start, row = (np.array(part, dtype=np.int32) for part in (pattern.colind(), pattern.row()))
-    diagonal = np.array([pattern.get_nz(k, k) for k in range(nx)], dtype=np.int32)
-    return Equations(
-        *(nx, nz, p.numel(), c.numel()),
-        *(_tape("values", arguments, F), _tape("slopes", arguments, slopes), None),
-        *(start, row, diagonal),
-    )
-
-
-def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX) -> Equations:
-    """Return equations with at most two expressions in x, z, t, p, c that are integrated besides."""
-    return replace(equations, powers=_tape("powers", arguments, powers))
-
-
-def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
-    return make_tape(ca.Function(name, list(arguments), [dense(column)], READABLE), early=(3, 4))
+    ROUNDING = 6
 
 
 @dataclass(frozen=True)
@@ -132,13 +53,15 @@ class Outputs:
     taken: np.ndarray
 
 
-class Rodas:
+class Stepper:
     """An integrator with memory of its own, for one thread at a time.
 
     Parameters
     ----------
     equations : Equations
         What is integrated.
+    method : str, optional
+        "rodas" for Rodas5P, or "ida" for IDAS, whose library has to be loaded, see `sundials`.
 
     Attributes
     ----------
@@ -146,16 +69,16 @@ class Rodas:
         Counts since it began, and the time that was reached.
     """
 
-    def __init__(self, equations: Equations) -> None:
-        self._library, self.equations = loaded(), equations
-        self._memory = equations.pool.take()
+    def __init__(self, equations: Equations, method: str = "rodas") -> None:
+        self._library, self.equations, self.method = loaded(), equations, method
+        self._memory = equations.pools[method].take()
         self.progress = Progress()
         self._request: tuple[object, ...] = ()
         self._steps = np.empty(0), np.empty((0, 0)), None
 
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
-            self.equations.pool.give(self._memory)
+            self.equations.pools[self.method].give(self._memory)
 
     def begin(
         self,
@@ -173,8 +96,11 @@ class Rodas:
         largest: bool = False,
         singular: bool = False,
         most: int = 2**62,
+        share: int = 1,
         room: int = 0,
         curves: bool = False,
+        order: int = 5,
+        newton: float = 0.05,
     ) -> Outputs:
         """Prepare an integration from the first of some times to the last; return what `go` fills.
 
@@ -184,8 +110,9 @@ class Rodas:
             Start and output times.
         x, z, p, c : arrays
             States and algebraic unknowns at the start, consistent; parameters; constants of the segment.
-        size : array, shape (nx,)
-            Sizes of the states: the error of a step is that over tolerance (size + |x|), root mean square.
+        size : array, shape (nx,), or (nx + nz,) for IDAS
+            Sizes of the states: the error of a step is that over tolerance (size + |x|), root mean square. IDAS weighs what
+            Newton iterations leave of the algebraic unknowns likewise.
         tolerance : float
             Relative tolerance.
         first_step : float, optional
@@ -201,32 +128,39 @@ class Rodas:
             are solved where a step ends does not count then.
         most : int, optional
             Steps between two outputs.
+        share : int, optional
+            Number of outputs that share these steps.
         room : int, optional
             Most steps that are kept, see `steps`.
         curves : bool, optional
             Whether their interpolants are kept instead of outputs, see `curve`.
+        order : int, optional
+            Highest order of IDAS.
+        newton : float, optional
+            Part of the tolerance that Newton iterations of IDAS may leave.
         """
         e, n = self.equations, len(times) - 1
         rows = 0 if curves else n
         found = Outputs(*(np.full((rows, *shape), np.nan) for shape in ((e.nx,), (e.nz,), (2,), ())))
         times, x, z, p, c, size = (np.ascontiguousarray(a, dtype=float) for a in (times, x, z, p, c, size))
-        if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
+        sizes = e.nx if self.method == "rodas" else e.nx + e.nz
+        if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, sizes):
             raise ValueError("the arguments do not fit the equations")
         chosen = None if rate is None else np.ascontiguousarray(rate, dtype=np.int32)
         ends = np.empty(room), np.empty((room, e.nx + e.nz))
-        self._steps = *ends, np.empty((room, 3, e.nx + e.nz)) if curves else None
+        self._steps = *ends, np.empty((room, ROWS[self.method], e.nx + e.nz)) if curves else None
         self._last = times[0], np.concatenate([x, z])
         written = (None,) * 4 if curves else (found.x, found.z, found.integral, found.taken)
         places = map(address, (times, *written))
         kept = map(address, self._steps)
         request = RequestData(
-            *(tolerance, first_step, address(size), address(chosen), smooth, largest, singular, most, n),
-            *(*places, room, *kept),
+            *(tolerance, first_step, address(size), address(chosen), smooth, largest, singular, most, share, n),
+            *(*places, room, *kept, order, newton),
         )
         # The library keeps the addresses of these, too.
         self._request = (times, size, chosen, found)
         self.progress = Progress()
-        self._library.ac_rodas_begin(self._memory, byref(request), *map(address, (x, z, p, c)))
+        self._library.ac_stepper_begin(self._memory, byref(request), *map(address, (x, z, p, c)))
         return found
 
     def go(self, steps: int, at_once: int = 2**62) -> End:
@@ -254,7 +188,7 @@ class Rodas:
 
     def _go(self, steps: int, at_once: int) -> End:
         while True:
-            end = End(self._library.ac_rodas_go(self._memory, min(steps, at_once), byref(self.progress)))
+            end = End(self._library.ac_stepper_go(self._memory, min(steps, at_once), byref(self.progress)))
             steps -= at_once
             if end != End.MORE or steps <= 0:
                 return end
@@ -268,11 +202,11 @@ class Rodas:
 
     def move(self, x: np.ndarray, z: np.ndarray) -> None:
         """Go on from other states and algebraic unknowns, near those after the last step."""
-        self._library.ac_rodas_move(self._memory, *map(address, (x, z)))
+        self._library.ac_stepper_move(self._memory, *map(address, (x, z)))
 
     def allow(self, most: int) -> None:
         """Take so many steps between two outputs at most from now on, as after `End.MANY`."""
-        self._library.ac_rodas_allow(self._memory, most)
+        self._library.ac_stepper_allow(self._memory, most)
 
     @property
     def steps(self) -> tuple[np.ndarray, np.ndarray]:
@@ -287,4 +221,4 @@ class Rodas:
     def curve(self) -> Curve:
         """The interpolants of these steps, if they are kept."""
         kept, dense = self.progress.kept, self._steps[2]
-        return Curve(*self.steps, np.empty((0, 3, 0)) if dense is None else dense[:kept].copy())
+        return Curve(*self.steps, np.empty((0, 1, 0)) if dense is None else dense[:kept].copy())

@@ -1,0 +1,95 @@
+"""Equations of a model as tapes, as the core integrates them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from ctypes import pointer
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+
+from acausal.core.library import EquationsData, Pool
+from acausal.core.tape import Tape, make_tape
+from acausal.instructions import READABLE
+from acausal.symbols import dense
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """Equations x' = f, 0 = g of states and algebraic unknowns, and what is integrated besides, as tapes.
+
+    Attributes
+    ----------
+    nx, nz, np, nc : int
+        Numbers of states, algebraic unknowns, parameters and constants of a segment.
+    values, slopes, powers : Tape
+        f and g; entries of their Jacobian, and their derivatives by time where they depend on it; at most two powers.
+    start, row, diagonal : arrays of int
+        Sparsity of the Jacobian in columns, and the places in it of the diagonal of the states.
+    """
+
+    nx: int
+    nz: int
+    np: int
+    nc: int
+    values: Tape
+    slopes: Tape
+    powers: Tape | None
+    start: np.ndarray
+    row: np.ndarray
+    diagonal: np.ndarray
+
+    @cached_property
+    def data(self) -> EquationsData:
+        """What the library takes; it holds addresses of the arrays of these equations."""
+        tapes = (self.values.data, self.slopes.data, self.powers.data if self.powers else None)
+        return EquationsData(
+            *(self.nx, self.nz, self.np, self.nc),
+            *(None if tape is None else pointer(tape) for tape in tapes),
+            *(array.ctypes.data for array in (self.start, self.row, self.diagonal)),
+        )
+
+    @cached_property
+    def pools(self) -> dict[str, Pool]:
+        """Memory of each method for these equations."""
+        return {method: Pool(method, self.data, "stepper") for method in ("rodas", "ida")}
+
+
+def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX) -> Equations:
+    """Return equations as tapes.
+
+    Parameters
+    ----------
+    x, z, t, p, c : casadi.SX
+        States, algebraic unknowns, time, parameters and constants of a segment.
+    ode, alg : casadi.SX
+        Derivatives of the states, and residuals.
+    """
+    nx, nz = x.numel(), z.numel()
+    y, F = ca.vertcat(x, z), ca.vertcat(dense(ode), dense(alg))
+    J = ca.jacobian(F, y)
+    own = ca.Sparsity.triplet(nx + nz, nx + nz, list(range(nx)), list(range(nx)))
+    pattern = J.sparsity() + own
+    entries = ca.project(J, pattern).nz[:]
+    by_time = ca.jacobian(F, t)
+    slopes = ca.vertcat(entries, dense(by_time)) if by_time.nnz() else entries
+    arguments = [x, z, t, p, c]
+
+    start, row = (np.array(part, dtype=np.int32) for part in (pattern.colind(), pattern.row()))
+    diagonal = np.array([pattern.get_nz(k, k) for k in range(nx)], dtype=np.int32)
+    return Equations(
+        *(nx, nz, p.numel(), c.numel()),
+        *(_tape("values", arguments, F), _tape("slopes", arguments, slopes), None),
+        *(start, row, diagonal),
+    )
+
+
+def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX) -> Equations:
+    """Return equations with at most two expressions in x, z, t, p, c that are integrated besides."""
+    return replace(equations, powers=_tape("powers", arguments, powers))
+
+
+def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
+    return make_tape(ca.Function(name, list(arguments), [dense(column)], READABLE), early=(3, 4))

@@ -1,0 +1,75 @@
+"""How a run goes on where an integrator refuses: in three rungs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal.policy import POLICY
+from acausal.solve.integrate.integrator import Integrator
+from acausal.solve.integrate.ladder import Failure, Kind, Refusal, Way, next_way, rescue_ways
+
+RESCUE = POLICY.rescue
+
+
+class Rescue:
+    """Three rungs after a refusal.
+
+    The next method goes on from the last accepted point; where none does, other methods and larger tolerances are tried for one
+    output interval, a few times in a run; at last the run fails.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        Its way is changed.
+    times : array
+        Output times in s.
+
+    Attributes
+    ----------
+    until : float
+        Time in s at which a way of one output interval ends; inf where the way is that of the run.
+    """
+
+    def __init__(self, integrator: Integrator, times: np.ndarray) -> None:
+        self.integrator, self.times, self.until = integrator, times, np.inf
+        self._ways, self._before = list[Way](), integrator.way
+        self._first: Refusal | None = None
+
+    def go_on(self, refusal: Refusal, end: float) -> None:
+        """Choose the way to go on after a refusal.
+
+        Raises
+        ------
+        Failure
+            If there is none.
+        """
+        integrator = self.integrator
+        rescues = integrator.settings.rescues(self.times, integrator.loops)
+        if not self._first:
+            if following := next_way(integrator.way, refusal, rescues):
+                integrator.take(following, refusal)
+                return
+            self._first, self._before = refusal, integrator.way
+            if len(integrator.trace.loosened) < RESCUE.loosened:
+                self._ways = rescue_ways(integrator.way, rescues)
+            after = np.searchsorted(self.times, refusal.time, "right")
+            self.until = min(end, float(self.times[min(after, len(self.times) - 1)]))
+        if not self._ways:
+            raise Failure.of(self._worst(refusal))
+        integrator.way = self._ways.pop(0)
+
+    def reached(self, time: float) -> None:
+        """Go on in the way of the run where that of one output interval has come to its end."""
+        if time < self.until:
+            return
+        trace, way = self.integrator.trace, self.integrator.way
+        if way.tolerance > self._before.tolerance:
+            assert self._first is not None
+            trace.loosened.append(self._first.time)
+        self.integrator.way = self._before
+        self.until, self._ways, self._first = np.inf, [], None
+
+    def _worst(self, last: Refusal) -> Refusal:
+        """Return the refusal to tell: a Newton iteration tells where a solution ended, others only that there is none."""
+        assert self._first is not None
+        return min(self._first, last, key=lambda one: one.time) if last.kind is Kind.CORRECTOR else self._first
