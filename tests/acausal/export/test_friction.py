@@ -1,4 +1,4 @@
-"""Set-valued laws in exported models: what `simulate` finds, redundant laws and loops included."""
+"""Set-valued laws in exported models: what `simulate` finds, redundant laws and loops included; brakes that hold."""
 
 from __future__ import annotations
 
@@ -38,3 +38,14 @@ def test_an_fmu_runs_as_simulate_does(machine, tmp_path):
     for name in (name for name in found.dtype.names[1:] if not name.startswith("integrated.")):
         own = np.asarray(run[name])[at]
         np.testing.assert_allclose(found[name], own, rtol=0, atol=1e-12 * (np.ptp(own) or 1.0), err_msg=name)
+
+
+@pytest.mark.filterwarnings("ignore:.*faster than they are checked:acausal.AcausalWarning")
+@pytest.mark.parametrize("version", [2, 3])
+def test_brakes_hold_however_long_the_run_is(version, tmp_path):
+    """They stop within 7 ms; what an event leaves of their speeds would stay."""
+    path = exported(ac.compile(Brakes()), tmp_path / "a.fmu", version, stop_time=1000.0)
+    w = 70 / 27
+    found = simulated(path, "CoSimulation", 1000.0, output=["a.phi", "b.phi"])
+    assert found["a.phi"][-1] == pytest.approx((10**2 - w**2) / 1e4 + w**2 / 1e3, rel=1e-8)
+    assert found["b.phi"][-1] == pytest.approx(-(5**2) / 1.2e4 + w**2 / 8e3 + w**2 / 1e3, rel=1e-8)
