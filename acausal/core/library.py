@@ -1,4 +1,4 @@
-"""Find and load the library; everything works without it, slower."""
+"""Find and load the library; without it set-valued laws are not decided, and all else works, slower."""
 
 from __future__ import annotations
 

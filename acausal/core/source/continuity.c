@@ -10,34 +10,17 @@
 #define ROUNDING 1e-11 /* of the terms: scheduled instants are known to that part of the time */
 #define MOST (DBL_MAX / 8) /* sums of some values are finite */
 
-void ac_save_round(ac_instance *i) {
-    const ac_equations *e = &i->of->parts.model.equations;
-    double *saved = i->round;
-    ac_put(saved, i->x, e->nx), saved += e->nx;
-    ac_put(saved, i->z, e->nz), saved += e->nz;
-    ac_put(saved, i->c, e->nc), saved += e->nc;
-    ac_put(saved, i->truth, i->of->watched);
-}
-
-void ac_restore_round(ac_instance *i) {
-    const ac_equations *e = &i->of->parts.model.equations;
-    const double *saved = i->round;
-    ac_put(i->x, saved, e->nx), saved += e->nx;
-    ac_put(i->z, saved, e->nz), saved += e->nz;
-    ac_put(i->c, saved, e->nc), saved += e->nc;
-    ac_put(i->truth, saved, i->of->watched);
-    ac_changed(i);
-}
-
 static double finite(double x) { return isnan(x) ? 0 : fmin(fmax(x, -MOST), MOST); }
 
 double ac_leeway(const ac_instance *i, int32_t guard) {
     const int32_t watched = i->of->watched;
-    const double value = finite(i->guards[guard]), scale = finite(i->guards[watched + guard]), rate = finite(i->guards[2 * watched + guard]);
+    const double value = finite(i->guards[guard]), scale = finite(i->guards[watched + guard]);
+    const double rate = finite(i->guards[2 * watched + guard]);
     return fmin(i->of->span, (scale + fabs(value) / JUMP) / fmax(fabs(rate), DBL_MIN));
 }
 
-/* Values with new constants at the point before the round, their changes with nominal changes and in the leeway, and their terms. */
+/* What is differentiated, with new constants at the point before the round; its changes with nominal changes and in the leeway; the
+   size of its terms. */
 static void evaluate(ac_instance *i, const double *constants, double leeway, double *found) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;

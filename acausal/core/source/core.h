@@ -106,8 +106,8 @@ typedef struct ac_request ac_request; /* for one integration, see `stepper.h` */
    the sign of u elsewhere. A (n, n) is positive semi-definite with a positive diagonal. The accelerations are unique; redundant
    forces have the least norm of u_k sqrt(A_kk), which has no unit. `reached`: 1 or -1 for forces that have reached a limit, else 0; they
    stay there if the others can hold their speeds, so that under a growing load each reaches its limit once. `sense`: of a speed that
-   leaves rest, 1 or -1, else 0; `sticks`: 1 for an independent subset of the speeds at rest, with which the others rest. Takes memory
-   while it runs; returns whether there was none. */
+   leaves rest, 1 or -1, else 0; `sticks`: 1 for an independent subset of the speeds at rest, with which the others rest. It takes
+   memory while it runs; other than 0 without. */
 AC_PUBLIC int32_t ac_shares(int32_t n, const double *A, const double *b, const double *reached, double *share, double *sense,
                             double *sticks);
 

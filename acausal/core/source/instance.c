@@ -22,7 +22,7 @@ static size_t lay_out(ac_instance *i, double *at) {
     const ac_equations *e = &u->parts.model.equations;
     const size_t nx = (size_t)e->nx, nz = (size_t)e->nz, n = nx + nz, np = (size_t)e->np, nc = (size_t)e->nc;
     const size_t watched = (size_t)u->watched, all = n + np + nc + (size_t)u->jumps + 3 * watched + 2;
-    const size_t modes = nx + (size_t)u->switches + (size_t)u->discretes, moving = (size_t)u->square[AC_MOVING].n;
+    const size_t modes = (u->switches ? nx : 0) + (size_t)u->switches + (size_t)u->discretes, moving = (size_t)u->square[AC_MOVING].n;
     size_t longest = most_of(ac_tape_length(e->values), ac_tape_length(e->slopes)), rows = 0, used = 0;
     for (int k = 0; k < AC_ROW_TAPES; k++) rows = most_of(rows, ac_tape_length(&u->row_tape[k]));
     for (int k = 0; k < AC_TAPES; k++) longest = most_of(longest, ac_tape_length(&u->tape[k]));

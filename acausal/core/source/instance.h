@@ -60,7 +60,7 @@ struct ac_unit {
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     const int32_t *multiplier, *stands;     /* (constraints) places among z; (standing, 2) places of coordinates among z, and of their states */
     int32_t standing, laws;                 /* numbers of those places and of set-valued laws */
-    const int32_t *law;                     /* (laws, 5) places of their mode, offset, shared, share and slip among the discrete variables */
+    const int32_t *law;                     /* (laws, 5) places of mode, offset, shared, share and slip among the discrete variables */
     const int32_t *gradient_start, *gradient_row, *law_start, *law_row; /* sparsity (nz, laws) in columns: of the derivatives of their
                                                rates by z, of those of g by their shares */
     ac_level level[AC_LEVELS];
@@ -228,9 +228,8 @@ void ac_read_laws(const ac_instance *i, const double *c, double *found); /* disc
 int32_t ac_decide_laws(ac_instance *i, const double *was);      /* laws at rest, given those variables before the event */
 int32_t ac_part_laws(ac_instance *i, int32_t *parted);
 void ac_begin_search(ac_instance *i, int32_t n);                /* for a mode of n numbers */
-int ac_next_mode(ac_mode_search *s, const double *current, double *mode); /* in place of the mode that the values of the current one imply */
-void ac_save_round(ac_instance *i);                             /* the point before a round of the event iteration */
-void ac_restore_round(ac_instance *i);
+/* Replace the mode that the values of the current one imply by the next one to try; 0 where none is left. */
+int ac_next_mode(ac_mode_search *s, const double *current, double *mode);
 double ac_leeway(const ac_instance *i, int32_t guard);          /* time in which a watched condition changes by its scale */
 int32_t ac_refuse_discontinuity(ac_instance *i, double leeway); /* refuse jumps since the round began of what is differentiated */
 void ac_sample_step(ac_instance *i, int32_t rows);

@@ -10,7 +10,7 @@
 #define RESPONDS 1e-8     /* response of a rate to its own force, over the sizes of its terms: below it is zero */
 #define INDEPENDENT 1e-8  /* rounding of the response of a rate to other forces, over its terms */
 #define ROUNDING (1e3 * DBL_EPSILON) /* rounding of an equation, over its terms: sums of up to 1,000 of them */
-#define MOVES 100.0       /* speed over its tolerance at which a law does not rest, as a jump brought it there: events are located to about 1 */
+#define MOVES 100.0       /* speed over its tolerance at which a law does not rest: events are located to about 1 */
 
 /* Discrete variables of a law. */
 enum { MODE, OFFSET, SHARED, SHARE, SLIP, KINDS };
