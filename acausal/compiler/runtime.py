@@ -215,11 +215,14 @@ class Runtime:
         """Tape of the set-valued laws, whose inputs end with nominal values, and places of their discrete variables."""
         laws, nz = self.compiled.guards.laws, self.compiled.nz
         nominal = ca.SX.sym("nominal", self.compiled.nx + nz)
-        column, *slopes = laws.column(nominal) if len(laws) else (NOTHING, ca.SX(nz, 0), ca.SX(nz, 0))
+        column, *slopes, order = NOTHING, ca.SX(nz, 0), ca.SX(nz, 0), np.arange(0)
+        if len(laws):
+            order = self.compiled.dependence.needed(range(nz))[1]
+            column, *slopes = laws.column(nominal, order.tolist())
         return {
             "laws": self._tape([*self._symbols, nominal], column),
             "lawsto": ints(laws.places.ravel()),
-            "lawsat": b"".join(map(_pattern, slopes)),
+            "lawsat": b"".join([ints(np.argsort(order)), *map(_pattern, slopes)]),
         }
 
     @property

@@ -93,10 +93,13 @@ class SetValuedLaws:
         """Number of switches, which come before the discrete variables."""
         return len(self._reduced.flat.discontinuities.switches)
 
-    def column(self, nominal: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
-        """Return the values as a column, sparse entries last, and both Jacobians with a column for each law."""
+    def column(self, nominal: ca.SX, order: list[int]) -> tuple[ca.SX, ca.SX, ca.SX]:
+        """Return the values as a column, sparse entries last, and both Jacobians with a column for each law.
+
+        The algebraic equations are in the given order.
+        """
         *dense, by_unknown, equations = self._call.function(*self._arguments, nominal)
-        slopes = by_unknown.T, equations
+        slopes = by_unknown.T, equations[order, :]
         entries = [stacked(J.nz[:].elements()) for J in slopes if J.nnz()]
         return ca.vertcat(*(ca.vec(value) for value in dense), *entries), *slopes
 

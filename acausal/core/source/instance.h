@@ -61,8 +61,9 @@ struct ac_unit {
     const int32_t *multiplier, *stands;     /* (constraints) places among z; (standing, 2) places of coordinates among z, and of their states */
     int32_t standing, laws;                 /* numbers of those places and of set-valued laws */
     const int32_t *law;                     /* (laws, 5) places of mode, offset, shared, share and slip among the discrete variables */
+    const int32_t *equation;                /* (nz) place of each equation of g among those of AC_ALGEBRAIC */
     const int32_t *gradient_start, *gradient_row, *law_start, *law_row; /* sparsity (nz, laws) in columns: of the derivatives of their
-                                               rates by z, of those of g by their shares */
+                                               rates by z, of those of AC_ALGEBRAIC by their shares */
     ac_level level[AC_LEVELS];
     const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
     const double *nominal, *reach, *follows, *size; /* (nx + nz); (nx) where they close loops, see `coordinate_scaling.py`, and follow a jump; (nz) below which changes are rounding, see `settle.c` */

@@ -56,7 +56,7 @@ static void evaluate(ac_instance *i, decision *d) {
 static void add_sizes(ac_instance *i, int32_t column, double x, double *found) {
     const ac_equations *e = &i->of->parts.model.equations;
     for (int32_t k = e->start[column]; k < e->start[column + 1]; k++) {
-        if (e->row[k] >= e->nx) found[e->row[k] - e->nx] += fabs(i->dw[e->slopes->output[k]] * x);
+        if (e->row[k] >= e->nx) found[i->of->equation[e->row[k] - e->nx]] += fabs(i->dw[e->slopes->output[k]] * x);
     }
 }
 

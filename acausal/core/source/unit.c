@@ -140,8 +140,9 @@ static int read_rules(const ac_section *found, ac_unit *u) {
 static int read_laws(const ac_section *found, ac_unit *u) {
     const int32_t nz = u->parts.model.equations.nz, n = u->laws = (int32_t)(found[LAWS_TO].left / (5 * sizeof *u->law));
     ac_section at = found[LAW_PATTERNS];
+    u->equation = ac_take(&at, n ? nz : 0, sizeof *u->equation);
     u->law = integers(found[LAWS_TO], 5 * (int64_t)n);
-    return u->law && ac_within(u->law, 5 * n, u->discretes) && ac_read_columns(&at, nz, n, &u->gradient_start, &u->gradient_row)
+    return u->law && u->equation && ac_within(u->equation, n ? nz : 0, nz) && ac_within(u->law, 5 * n, u->discretes) && ac_read_columns(&at, nz, n, &u->gradient_start, &u->gradient_row)
         && ac_read_columns(&at, nz, n, &u->law_start, &u->law_row) && !at.left
         && u->tape[AC_LAWS].outputs == (4 + (int64_t)n) * n + u->gradient_start[n] + u->law_start[n];
 }
