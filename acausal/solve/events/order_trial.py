@@ -15,6 +15,7 @@ from acausal.solve.events.aside import integrate_aside
 from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Refusal, Way
 from acausal.solve.integrate.order_doubt import is_open, patience
+from acausal.solve.integrate.trace import Trace
 from acausal.solve.point import Point
 
 ORDER = POLICY.order
@@ -72,21 +73,23 @@ class OrderTrial:
         low, high = integrator.settings.max_order, ORDER.highest
         before, most = replace(integrator.way, order=integrator.order), patience(integrator, self.times)
         gain = ORDER.gain if before.order == low else 1
-        work = self._tried(at, times, before, most)
+        found = self._tried(at, times, before, most)
         other = replace(before, order=high if before.order == low else low)
-        less = self._tried(at, times, other, integrator.settings.patience(before, self.times))
-        if less is None or (work is not None and gain * less >= work):
+        steps = max(1, found.steps // gain) if found else integrator.settings.patience(before, self.times) * (len(times) - 1)
+        rival = self._tried(at, times[[0, -1]], other, steps)
+        if rival is None or (found and gain * rival.residual_evaluations >= found.residual_evaluations):
             return
         integrator.way = replace(integrator.way, order=other.order)
-        than = f"{work}" if work is not None else f"more than {most} steps for an output"
+        than = f"{found.residual_evaluations}" if found else f"more than {most} steps for an output"
         integrator.trace.orders.append(
-            f"{other.order} from t = {at.time:.6g} s on: a trial took {less} evaluations, where order {before.order} took {than}"
+            f"{other.order} from t = {at.time:.6g} s on: a trial took {rival.residual_evaluations} evaluations, "
+            f"where order {before.order} took {than}"
         )
 
-    def _tried(self, at: Point, times: np.ndarray, way: Way, most: int) -> int | None:
-        """Return the evaluations of a trial, None if it is refused."""
+    def _tried(self, at: Point, times: np.ndarray, way: Way, most: int) -> Trace | None:
+        """Return the counts of a trial, None if it is refused."""
         aside = self.integrator.aside()
         aside.way = way
         found = integrate_aside(aside, at, times, most)
         self.integrator.trace.include(aside.trace)
-        return None if isinstance(found, Refusal) else aside.trace.residual_evaluations
+        return None if isinstance(found, Refusal) else aside.trace
