@@ -142,7 +142,7 @@ class Hybrid:
         except InitializationError:
             return False
         run, how = self._run(at, way), None
-        if method.multistep:
+        if method.multistep and problem.nx:
             how = multistep_settings(problem, integrator.settings, way, integrator.rounding(at))
         given = at.time, at.x, at.z, problem.p, at.constants.vector, at.mode if self.instants else np.empty(0)
         run.begin(*given, step=self.step, tolerance=way.tolerance, damps=method.damps, multistep=how)
@@ -162,11 +162,10 @@ class Hybrid:
         integrator.consistent.evaluations += run.state.evaluations - evaluations
         return found
 
-    @staticmethod
-    def _counts(run: Run) -> np.ndarray:
-        """Return the numbers of steps, factorisations, residual evaluations and restarts."""
+    def _counts(self, run: Run) -> np.ndarray:
+        """Return the numbers of steps, factorisations, residual evaluations and restarts; none where no states are integrated."""
         state = run.state
-        return np.array([state.steps, state.factors, state.values, state.begun])
+        return np.array([state.steps, state.factors, state.values, state.begun]) * (self.integrator.problem.nx > 0)
 
     def _longest(self, way: Way) -> int:
         """Return the largest number of steps between two outputs or events."""

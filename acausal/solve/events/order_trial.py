@@ -75,7 +75,11 @@ class OrderTrial:
         gain = ORDER.gain if before.order == low else 1
         found = self._tried(at, times, before, most)
         other = replace(before, order=high if before.order == low else low)
-        steps = max(1, found.steps // gain) if found else integrator.settings.patience(before, self.times) * (len(times) - 1)
+        steps = (
+            max(1, found.steps // gain)
+            if found
+            else integrator.settings.patience(before, self.times) * (len(times) - 1)
+        )
         rival = self._tried(at, times[[0, -1]], other, steps)
         if rival is None or (found and gain * rival.residual_evaluations >= found.residual_evaluations):
             return

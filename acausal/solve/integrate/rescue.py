@@ -33,7 +33,7 @@ class Rescue:
     def __init__(self, integrator: Integrator, times: np.ndarray) -> None:
         self.integrator, self.times, self.until = integrator, times, np.inf
         self._ways, self._before = list[Way](), integrator.way
-        self._first: Refusal | None = None
+        self._refusals = list[Refusal]()
 
     def go_on(self, refusal: Refusal, end: float) -> None:
         """Choose the way to go on after a refusal.
@@ -45,17 +45,18 @@ class Rescue:
         """
         integrator = self.integrator
         rescues = integrator.settings.rescues(self.times, integrator.loops)
-        if not self._first:
+        if not self._refusals:
             if following := next_way(integrator.way, refusal, rescues):
                 integrator.take(following, refusal)
                 return
-            self._first, self._before = refusal, integrator.way
+            self._before = integrator.way
             if len(integrator.trace.loosened) < RESCUE.loosened:
                 self._ways = rescue_ways(integrator.way, rescues)
             after = np.searchsorted(self.times, refusal.time, "right")
             self.until = min(end, float(self.times[min(after, len(self.times) - 1)]))
+        self._refusals.append(refusal)
         if not self._ways:
-            raise Failure.of(self._worst(refusal))
+            raise Failure.of(self._last_word())
         integrator.way = self._ways.pop(0)
 
     def reached(self, time: float) -> None:
@@ -64,12 +65,15 @@ class Rescue:
             return
         trace, way = self.integrator.trace, self.integrator.way
         if way.tolerance > self._before.tolerance:
-            assert self._first is not None
-            trace.loosened.append(self._first.time)
+            trace.loosened.append(self._refusals[0].time)
         self.integrator.way = self._before
-        self.until, self._ways, self._first = np.inf, [], None
+        self.until, self._ways, self._refusals = np.inf, [], []
 
-    def _worst(self, last: Refusal) -> Refusal:
-        """Return the refusal to tell: a Newton iteration tells where a solution ended, others only that there is none."""
-        assert self._first is not None
-        return min(self._first, last, key=lambda one: one.time) if last.kind is Kind.CORRECTOR else self._first
+    def _last_word(self) -> Refusal:
+        """Return the refusal to tell: where a solution ended, by a Newton iteration, else the one that came farthest."""
+        ended = [one for one in self._refusals if one.kind is Kind.CORRECTOR]
+        return min(ended, key=_time) if ended else max(self._refusals, key=_time)
+
+
+def _time(refusal: Refusal) -> float:
+    return refusal.time

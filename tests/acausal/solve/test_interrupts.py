@@ -8,14 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from acausal.solve.integrate.by_core import ByCore
 
 import acausal as ac
 from acausal.core import Run, library
 from acausal.solve import run as module
 
 SOLVER = Path(module.__file__).parent
-FILES = ("events/course.py", "integrate/attempt.py", "integrate/interrupted.py", "integrate/trace.py")
+FILES = ("events/course.py", "events/hybrid.py", "integrate/integrator.py", "integrate/trace.py")
 WHERE = {str(SOLVER / name) for name in FILES}
 PLACES = 25
 
@@ -97,7 +96,7 @@ def test_interrupted_anywhere(energy, method):
 
 
 @pytest.mark.skipif(library() is None, reason="needs the core")
-def test_steps_of_a_look_ahead_are_counted(monkeypatch):
+def test_steps_of_an_interrupted_slice_are_counted(monkeypatch):
     go = Run.go
 
     def cut(self, *arguments, **options):
@@ -120,7 +119,7 @@ def test_what_an_integrator_took_to_build_is_counted(monkeypatch):
         raise KeyboardInterrupt
 
     compiled = ac.compile(Falls())
-    monkeypatch.setattr(ByCore, "__init__", cut)
+    monkeypatch.setattr(Run, "begin", cut)
     with pytest.raises(KeyboardInterrupt) as caught:
         ac.simulate(compiled, stop_time=2.5, method="rosenbrock")
     stats = caught.value.result.stats

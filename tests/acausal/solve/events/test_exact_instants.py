@@ -26,10 +26,7 @@ from acausal import (
     variable,
     when,
 )
-from acausal.core import library
-from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.ladder import Kind, Refusal
-from acausal.solve.integrate.march import March
+from acausal.solve.integrate.integrator import Integrator
 
 METHODS = ("auto", "idas")
 
@@ -61,21 +58,6 @@ def test_a_law_that_switches_at_the_start(intervals: int) -> None:
     assert at_start["hits"][-1] == beside["hits"][-1] >= 10
     np.testing.assert_allclose(at_start.stats.event_times[-9:], beside.stats.event_times[-9:], rtol=1e-6)
     assert at_start.stats.steps == pytest.approx(beside.stats.steps, rel=0.1)
-
-
-@pytest.mark.skipif(library() is None, reason="needs the core")
-@pytest.mark.parametrize("intervals", [1, 3])
-def test_no_event_is_missed_where_the_core_gives_up(monkeypatch: pytest.MonkeyPatch, intervals: int) -> None:
-    compiled = ac.compile(Wave(shift=1e-9))
-    right = run(compiled, intervals=intervals)
-
-    def refused(self: March, density: int) -> None:
-        self.refusal = Refusal(Kind.ERROR_TEST, self._at.time)
-
-    monkeypatch.setattr(March, "go", refused)
-    found = run(compiled, intervals=intervals)
-    assert found["hits"][-1] == right["hits"][-1]
-    np.testing.assert_allclose(found.stats.event_times, right.stats.event_times, atol=1e-6)
 
 
 class Samplers(Model):
