@@ -1,8 +1,7 @@
-"""Tests of scenes with each method of integration, and all tests without the core, each in a run of pytest of its own."""
+"""Tests of scenes with each method of integration, each in a run of pytest of its own."""
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -20,11 +19,9 @@ METHODS = {
 pytestmark = pytest.mark.slow
 
 
-def passes(*arguments: str, **environment: str) -> None:
+def passes(*arguments: str) -> None:
     command = [sys.executable, "-m", "pytest", "-q", "-q", "-p", "no:cacheprovider", *arguments]
-    done = subprocess.run(
-        command, cwd=HERE.parent, env=os.environ | environment, capture_output=True, text=True, check=False
-    )
+    done = subprocess.run(command, cwd=HERE.parent, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout[-10000:]
 
 
