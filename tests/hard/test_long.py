@@ -7,7 +7,6 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, fixed, parameter, quantity, sin, structural, tanh, time
-from acausal.core import library
 from acausal.solve.integrate import by_core
 from components import Body, Revolute, World
 from components.rotational import Damper
@@ -205,7 +204,6 @@ class Rests(DrivenFourBar):
         yield self.torque.tau == quantity(50.0, "N.m") * (1 + tanh(8 * s)) * push
 
 
-@pytest.mark.skipif(library() is None, reason="needs the core")
 @pytest.mark.parametrize("calls", [None, 1])
 @pytest.mark.parametrize("shaken", [False, True])
 def test_a_loop_that_moves_after_a_long_rest_creeps_nowhere(shaken, calls, monkeypatch):

@@ -9,7 +9,6 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, der, discrete, reinit, sin, time, variable, when
-from acausal.core import library
 from tests.hard.driven import DrivenFourBar
 
 METHODS = ("auto", "idas", "rosenbrock", "resolve")
@@ -91,7 +90,6 @@ def test_an_array_beside_a_sampled_torque_in_a_loop(method: str) -> None:
     np.testing.assert_array_equal(one["table"], np.broadcast_to([5.0, -3.0, 2.0, 7.0], (401, 4)))
 
 
-@pytest.mark.skipif(library() is None, reason="needs the core")
 def test_exported_arrays(tmp_path: Path) -> None:
     fmpy = pytest.importorskip("fmpy")
     run = ac.simulate(Shifted(), stop_time=0.5, intervals=10, tolerance=1e-9)

@@ -7,11 +7,9 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, der, exp, parameter, piecewise, structural, tanh, time, variable, when
-from acausal.core import library
 from acausal.solve.events.rests import _ends
 
 LOOKS = np.linspace(0, 1, 401)
-CORE = pytest.mark.skipif(library() is None, reason="needs the core")
 
 
 class Struck(Model):
@@ -33,7 +31,6 @@ class Struck(Model):
             yield when(self.x > 1e3, ac.reinit(self.count, self.count + 1))
 
 
-@CORE
 @pytest.mark.parametrize("model", [{}, {"watched": True}, {"after": 2.5}, {"after": 2.5, "watched": True}])
 @pytest.mark.parametrize("method", ["auto", "rosenbrock"])
 @pytest.mark.parametrize(("tolerance", "intervals"), [(1e-3, 20), (1e-3, 400), (1e-6, 3), (1e-6, 20), (1e-6, 4000)])
@@ -79,7 +76,6 @@ def test_what_stays_or_never_rests(law) -> None:
     assert _ends(law[:, None]) == []
 
 
-@CORE
 def test_steps_that_stay_cost_no_call() -> None:
     class Pushed(Model):
         x: Scalar = variable("x", start=0, fixed=True)

@@ -25,7 +25,6 @@ from acausal import (
     when,
 )
 from acausal.compiler import CompiledModel
-from acausal.core import library
 from acausal.core import run as core
 from acausal.core.run import Run
 from acausal.solve.events.hybrid import Hybrid
@@ -34,8 +33,6 @@ from components.rotational import Torque
 from models import FlexiblePendulum, FourBar
 from tests.benchmarks.events.scenes import SampledPendulum
 from tests.shared import pairwise
-
-pytestmark = pytest.mark.skipif(library() is None, reason="needs the core")
 
 
 class Plant(Model):

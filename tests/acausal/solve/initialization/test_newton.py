@@ -10,7 +10,6 @@ import pytest
 import acausal as ac
 import models
 from acausal import Model, Scalar, der, fixed, variable
-from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.initialization.initial_modes import start
 from acausal.solve.initialization.newton import InitialSystem, _algebraic, algebraic, homotopy, newton
@@ -160,9 +159,6 @@ def test_algebraic_unknowns_alone():
     np.testing.assert_allclose(found.z, np.linalg.solve(A[1:, 1:], -A[1:, 0] * 2), rtol=1e-14)
 
 
-CORE = pytest.mark.skipif(library() is None, reason="needs the core")
-
-
 class Root(Model):
     """z^3 = x, whose slope is 0 at z = 0."""
 
@@ -174,7 +170,6 @@ class Root(Model):
         yield self.z**3 == self.x
 
 
-@CORE
 @pytest.mark.parametrize(
     "scene", ["FourBar", "NFourBar", "Bricard", "FourBarSpatial", "Squeezer", "SliderCrank", "Governor"]
 )
@@ -195,7 +190,6 @@ def test_the_core_finds_what_the_damped_iteration_finds(scene):
     assert accepted
 
 
-@CORE
 def test_what_the_core_does_not_find_at_once_is_left_to_the_damped_iteration():
     compiled = ac.compile(Root(x=fixed(8.0)))
     problem = Problem(compiled, compiled.parameter_values(None), runs=True)

@@ -12,7 +12,6 @@ from scipy.optimize import brentq
 
 import acausal as ac
 from acausal import Model, Scalar, atan2, der, parameter, sin, sqrt, tanh, time, variable
-from acausal.core import library
 
 LAWS: dict[str, Callable[[Any, Any], Any]] = {
     "stop": lambda o, z: o.atan2(1e4 * z, 1),
@@ -73,12 +72,6 @@ def exact(law: str, linear: float, pull: float, times: np.ndarray) -> np.ndarray
     return found.y[0]
 
 
-CORE = pytest.mark.skipif(
-    library() is None, reason="needs the core: what goes by CasADi does not look at what equations leave"
-)
-
-
-@CORE
 @pytest.mark.parametrize(
     ("law", "linear"),
     [
@@ -104,7 +97,6 @@ def test_the_error_is_that_of_the_tolerance(law: str, linear: float) -> None:
             assert error < 50 * tolerance, (method, tolerance, error)
 
 
-@CORE
 @pytest.mark.parametrize("method", ["auto", "idas"])
 @pytest.mark.parametrize("law", LAWS)
 def test_what_is_read_satisfies_the_law(law: str, method: str) -> None:

@@ -10,15 +10,12 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, der, fixed, output, reinit, time, variable, when
-from acausal.core import library
 from acausal.errors import DeclarationError
 from acausal.solve.integrate import methods
 from acausal.solve.integrate.order import eigenvalues_of
 from components.rotational import Damper
 from models import FourBar, NFourBar
 from tests.reference import four_bar
-
-CORE = pytest.mark.skipif(library() is None, reason="needs the core")
 
 
 class Spring(Model):
@@ -34,7 +31,6 @@ def spring(**options):
     return ac.simulate(Spring(x=fixed(1.0), v=fixed(0.0)), stop_time=10.0, intervals=20, **options)
 
 
-@CORE
 def test_auto_begins_with_the_one_step_method():
     stats = spring(tolerance=1e-8).stats
     assert (stats.method, stats.damped) == ("rosenbrock", False)
@@ -65,7 +61,6 @@ def test_errors_follow_the_tolerance(method, tolerance):
     assert np.max(np.abs(result["x"] - np.cos(result.time))) < 100 * tolerance
 
 
-@CORE
 def test_flat_positions_are_left_to_idas():
     stats = ac.simulate(NFourBar(), stop_time=2.0, tolerance=1e-5).stats
     assert stats.method == "rosenbrock and idas"
@@ -79,7 +74,6 @@ class Undamped(FourBar):
     damper = Damper(d=0)
 
 
-@CORE
 def test_errors_that_lead_off_the_constraints_do_not_add_up():
     result = ac.simulate(Undamped(), stop_time=100.0, tolerance=1e-6, intervals=200)
     reference = four_bar.FourBar(damping=0.0)
@@ -105,7 +99,6 @@ class Driven(Model):
         yield der(self.x) == 50 * ac.cos(50 * time) - (self.x - ac.sin(50 * time))
 
 
-@CORE
 @pytest.mark.parametrize("watched", [False, True])
 def test_what_takes_as_many_steps_and_does_not_vibrate_is_followed(watched):
     class Watched(Driven):
@@ -120,7 +113,6 @@ def test_what_takes_as_many_steps_and_does_not_vibrate_is_followed(watched):
     np.testing.assert_allclose(result["x"], np.sin(50 * result.time) + jump, atol=0.05)
 
 
-@CORE
 def test_eigenvalues_are_found_when_they_are_read(monkeypatch):
     asked, found = [], eigenvalues_of
     monkeypatch.setattr("acausal.solve.integrate.order.eigenvalues_of", lambda *of: asked.append(1) or found(*of))
@@ -136,7 +128,6 @@ def test_eigenvalues_are_found_when_they_are_read(monkeypatch):
     assert (before, len(asked)) == (0, 1)
 
 
-@CORE
 def test_too_many_vibrations_are_damped_unless_digits_are_asked_for():
     compiled = ac.compile(Fast(x=fixed(1.0), v=fixed(0.0)))
     loose, fine = (ac.simulate(compiled, stop_time=1.0, tolerance=t, intervals=5).stats for t in (1e-3, 1e-9))
