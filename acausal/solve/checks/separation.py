@@ -125,7 +125,7 @@ def first_coincidence(integrator: Integrator, first: Point) -> Violation | None:
     return min(found, key=lambda violation: violation.time, default=None)
 
 
-def coincidence_ahead(problem: Problem, at: Point, time: float) -> str:
+def coincidence_ahead(problem: Problem, at: Point, time: float, soon: float) -> str:
     """Return the message on points that would coincide when the run failed; "" if there are none.
 
     Parameters
@@ -136,12 +136,14 @@ def coincidence_ahead(problem: Problem, at: Point, time: float) -> str:
         Point shortly before.
     time : float
         Time of the failure in s.
+    soon : float
+        Time in s within which they would coincide.
     """
     statements, column = separations(problem.compiled), 0
     values = problem.each(statements.function, Rows.of(at))[0] if statements.stated else np.empty(0)
     for separation, origin in statements.stated:
         rate, effect, *offset = values[column : (column := column + 2 + separation.offset.sx.numel())]
-        if effect and np.linalg.norm(offset) <= MEETING.ahead * -rate * (time - at.time):
+        if effect and np.linalg.norm(offset) <= MEETING.ahead * -rate * soon:
             return f"{origin}: at t = {time:.6g} s {separation.text}."
     return ""
 

@@ -60,7 +60,7 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
     if long := _too_long(problem, begun, integrator.span[1]):
         return f"{head} {failure.reason}.\n{long}"
     near = failure.at or at
-    if met := coincidence_ahead(problem, near, failure.time):
+    if met := coincidence_ahead(problem, near, failure.time, CAUSES.shortest * (failure.time - begun.time)):
         return met
     lines = [f"{head} {failure.reason}."]
     if is_singular(problem, at) or (left.singular and not reached):
