@@ -44,6 +44,7 @@ class MethodData(Structure):
     _fields_ = (
         ("method", c_int32),
         ("damps", c_int32),
+        ("blind", c_int32),
         ("tolerance", c_double),
         ("step", c_double),
         ("size", c_void_p),
@@ -172,6 +173,7 @@ class Run:
         tolerance: float,
         damps: bool = False,
         multistep: Multistep | None = None,
+        events: bool = True,
     ) -> None:
         """Begin at a consistent point.
 
@@ -191,12 +193,16 @@ class Run:
             Whether Rodas5P damps vibrations that coordinates do not show.
         multistep : Multistep, optional
             Settings of IDAS, if it integrates in place of Rodas5P.
+        events : bool, optional
+            Whether events happen.
         """
         given = [np.ascontiguousarray(a, dtype=float) for a in (x, z, p, c, mode)]
-        self.state, method = RunState(time=time, step=step), MethodData(0, damps, tolerance, step)
+        self.state, method = RunState(time=time, step=step), MethodData(0, damps, not events, tolerance, step)
         if multistep:
             self._size = np.ascontiguousarray(multistep.size, dtype=float)  # the library keeps its address
-            method = MethodData(1, False, tolerance, step, address(self._size), multistep.newton, multistep.order)
+            method = MethodData(
+                *(1, False, not events, tolerance, step, address(self._size), multistep.newton, multistep.order)
+            )
         if self._library.ac_run_begin(self._memory, byref(method), time, *map(address, given)):
             raise MemoryError
 

@@ -45,7 +45,9 @@ def main() -> None:
         ("ball", ball.make, ball.span(False)),
     ):
         compiled = ac.compile(make())
-        print(f"{name}: {len(entered(compiled, **how))} files in the first run, {len(entered(compiled, **how))} in the next")
+        print(
+            f"{name}: {len(entered(compiled, **how))} files in the first run, {len(entered(compiled, **how))} in the next"
+        )
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ double ac_next_instant(ac_instance *i, double *between) {
     const ac_unit *u = i->of;
     const double now = i->now.time, near = ac_near(i);
     double next = INFINITY;
-    if (u->instants) {
+    if (u->instants && !i->now.blind) {
         const double *w = ac_run(i, AC_INSTANTS);
         for (int32_t k = 0; k < u->instants; k++) {
             const double at = w[u->tape[AC_INSTANTS].output[k]];

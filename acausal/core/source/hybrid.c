@@ -165,7 +165,7 @@ static int is_due(ac_instance *i) {
     const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, m = i->of->watched;
     const double *value = i->guards, *rate = i->guards + 2 * m;
     int due = 0;
-    if (!m || (i->recorder && i->recorder->state->why == AC_UNDEFINED) || ac_indicator_rates(i)) return 0;
+    if (!m || i->now.blind || (i->recorder && i->recorder->state->why == AC_UNDEFINED) || ac_indicator_rates(i)) return 0;
     for (int32_t k = 0; k < m; k++) {
         const double side = i->truth[k] > 0 ? -1 : 1, falls = -side * rate[k];
         i->crossing[k] = falls > 0 && side * value[k] <= DUE * falls * i->of->span ? AC_DUE : 0;

@@ -9,7 +9,7 @@ enum { AC_RODAS, AC_IDAS };
 
 /* How a run is integrated. */
 typedef struct {
-    int32_t method, damps;           /* damps: as of the settings, of Rodas5P */
+    int32_t method, damps, blind;    /* damps: as of the settings, of Rodas5P; blind: whether events are passed over */
     double tolerance, step;          /* first step, chosen if 0 */
     ac_multistep multistep;          /* of IDAS */
 } ac_run_method;

@@ -280,7 +280,7 @@ static int32_t begin(ac_instance *i, sample *start) {
 /* Locate the first event of the last step; none leaves `event` infinite. */
 int32_t ac_locate(ac_instance *i) {
     const int32_t m = i->of->watched;
-    if (!m) return AC_OK;
+    if (!m || i->now.blind) return AC_OK;
     /* Samples of the step stand in order behind the slots of `seek` and `narrow`. */
     const int first = DEPTH + 3;
     sample at[AC_FIRST_SAMPLES + 1];

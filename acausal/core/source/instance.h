@@ -94,6 +94,7 @@ typedef struct {
     int32_t weak, hasty;                   /* events in a row with hardly any motion between; whether samples may have missed some */
     int32_t given;                         /* values were set since the last step, by which conditions may change at once */
     int32_t sure;                          /* whether there is such a point, with these parameters */
+    int32_t blind;                         /* whether events are passed over */
     int32_t taken;                         /* steps since closed loops were at their constraints */
     int32_t pasts, crosses;                /* points that are remembered; whether the last step crosses a singular configuration */
     int32_t looked;                        /* whether conditions and rates at the end of the last step stand in `looks` */

@@ -26,6 +26,7 @@ int32_t ac_run_begin(ac_instance *i, const ac_run_method *method, double time, c
     ac_put(i->truth, truth, i->of->watched);
     i->now.time = i->now.from = i->now.to = time, i->now.longer = method->step;
     i->now.tolerance = method->tolerance, i->now.damping = method->damps, i->now.simulates = 1, i->now.phase = AC_RUNNING;
+    i->now.blind = method->blind;
     i->now.next = ac_next_instant(i, &between);
     i->energy[0] = i->energy[1] = 0;
     memset(&i->counts, 0, sizeof i->counts);

@@ -88,6 +88,7 @@ class Hybrid:
         self._made: tuple[Way, Run] | None = None
         self._worked, self._hasty = np.zeros(2), False
         self._steps = 0  # of a slice
+        self._rings: bool | None = None  # whether outputs cannot show vibrations, once that is asked
         self._at: Point | None = None  # where the run pauses
 
     def go(self, at: Point, end: float, weak: int) -> Passed:
@@ -105,7 +106,7 @@ class Hybrid:
         x, z, c, mode, crossed = run.values()
         self.step = run.state.step
         constants = self.integrator.compiled.layout.constants(c)
-        point = Point(run.state.time, x, z, constants, mode if self.instants else at.mode)
+        point = Point(run.state.time, x, z, constants, mode)
         self._at = point if back in (Back.PAUSED, Back.FULL, Back.END) else None
         leg = self._leg(found)
         if leg and (fit := self.integrator.fit_rows(leg.rows, at.constants)) < len(leg.rows):
@@ -113,6 +114,8 @@ class Hybrid:
         work = np.array([run.state.supplied, run.state.dissipated]) - self._worked
         changes = crossed if back is Back.EVENT else None
         refusal = self._refusal(run, way, point) if back is Back.DOUBT else None
+        if refusal and refusal.kind in (Kind.STEPS, Kind.STALLED) and self._may_go_on(way):
+            refusal = None
         return Passed(leg, point, found.events.tolist(), changes, run.state.weak, work, refusal)
 
     def restart(self) -> None:
@@ -144,8 +147,15 @@ class Hybrid:
         run, how = self._run(at, way), None
         if method.multistep and problem.nx:
             how = multistep_settings(problem, integrator.settings, way, integrator.rounding(at))
-        given = at.time, at.x, at.z, problem.p, at.constants.vector, at.mode if self.instants else np.empty(0)
-        run.begin(*given, step=self.step, tolerance=way.tolerance, damps=method.damps, multistep=how)
+        given = at.time, at.x, at.z, problem.p, at.constants.vector, at.mode
+        run.begin(
+            *given,
+            step=self.step,
+            tolerance=way.tolerance,
+            damps=method.damps,
+            multistep=how,
+            events=self.instants is not None,
+        )
         run.state.weak, self._worked = weak, np.zeros(2)
         return True
 
@@ -169,9 +179,21 @@ class Hybrid:
 
     def _longest(self, way: Way) -> int:
         """Return the largest number of steps between two outputs or events."""
+        settings = self.integrator.settings
         if way.max_steps is None and is_open(self.integrator, self.times):
             return doubt(self.integrator, self.times)
-        return self.integrator.settings.longest(way, self.times)
+        most = way.max_steps or settings.patience(way, self.times)
+        if way.method != "following":
+            return most
+        ringing = settings.ringing(way)
+        return min(most, ringing) if self._rings is None else ringing if self._rings else most
+
+    def _may_go_on(self, way: Way) -> bool:
+        """Ask for vibrations that outputs cannot show where many steps are taken; return whether more are allowed."""
+        most = self._longest(way)
+        if way.method == "following" and self._rings is None:
+            self._rings = self.integrator.settings.may_ring(self.times)
+        return self._longest(way) > most
 
     def _leg(self, found: Recorded) -> Leg | None:
         """Return the recorded rows as a leg of the trace."""
@@ -204,8 +226,8 @@ class Hybrid:
         if not self._is_made(way):
             integrator = self.integrator
             c, problem = integrator.compiled, integrator.problem
-            content = run_file(problem, integrator.settings, at, way, self.instants is not None)
-            sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched) if self.instants else 0
+            content = run_file(problem, integrator.settings, at, way)
+            sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched)
             room = min(SAMPLING.rows, 4 + SAMPLING.numbers // sum(sizes[:3]))
             self._made = way, Run(content, sizes, room)
             self._steps = at_once(core_equations(c, False, way.moves))

@@ -101,9 +101,6 @@ class Settings:
             return max(RESCUE.fewest_long, RESCUE.long // n)
         return max(RESCUE.fewest_short, RESCUE.short // n)
 
-    def longest(self, way: Way, times: np.ndarray) -> int:
-        """Return the steps for an output interval after which a way is given up, for vibrations that outputs cannot show soon."""
-        most = way.max_steps or self.patience(way, times)
-        if way.method != "following" or not self.may_ring(times):
-            return most
-        return min(most, max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs)))
+    def ringing(self, way: Way) -> int:
+        """Return the steps for an output interval after which vibrations that outputs cannot show are damped."""
+        return max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs))

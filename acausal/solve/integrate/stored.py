@@ -14,6 +14,7 @@ from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
 from acausal.solve.initialization.independent_constraints import closure_of
 from acausal.solve.integrate.ladder import Way
+from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.point import Point
@@ -43,17 +44,17 @@ def stored(problem: Problem, at: Point, works: bool, moves: bool) -> StoredModel
 
 
 @memoized
-def _runtime(compiled: CompiledModel, energies: bool, moves: bool, events: bool) -> Runtime:
+def _runtime(compiled: CompiledModel, energies: bool, moves: bool) -> Runtime:
     """Return the run-time object of a model for runs."""
-    parameters, watched = compiled.reduced.p, compiled.guards.watched if events else []
+    parameters, watched = compiled.reduced.p, compiled.guards.watched
     return Runtime(compiled, parameters, watched, levels(compiled), closure_of(compiled), energies, moves=moves)
 
 
 @memoized
-def _sections(compiled: CompiledModel, energies: bool, moves: bool, events: bool) -> dict[str, bytes]:
+def _sections(compiled: CompiledModel, energies: bool, moves: bool) -> dict[str, bytes]:
     """Sections that do not change from run to run."""
-    runtime, guards, r = _runtime(compiled, energies, moves, events), compiled.guards, compiled.reduced
-    instants = guards.scheduled.function(r.p, r.constants) if events else NOTHING
+    runtime, guards, r = _runtime(compiled, energies, moves), compiled.guards, compiled.reduced
+    instants = guards.scheduled.function(r.p, r.constants)
     counts = guards.n_switches, guards.n_discretes, len(compiled.constraints.closures)
     nothing = runtime.tape(NOTHING)
     return {
@@ -71,7 +72,7 @@ def _sections(compiled: CompiledModel, energies: bool, moves: bool, events: bool
     }
 
 
-def run_file(problem: Problem, settings: Settings, at: Point, way: Way, events: bool = True) -> bytes:
+def run_file(problem: Problem, settings: Settings, at: Point, way: Way) -> bytes:
     """Return the model file of a run.
 
     Parameters
@@ -84,11 +85,9 @@ def run_file(problem: Problem, settings: Settings, at: Point, way: Way, events: 
         Where it is, consistent.
     way : Way
         Its tolerance and projection.
-    events : bool, optional
-        Whether conditions are watched.
     """
     compiled, nominal = problem.compiled, settings.nominal
-    runtime, free = _runtime(compiled, settings.energy, way.moves, events), np.empty(0, dtype=int)
+    runtime, free = _runtime(compiled, settings.energy, way.moves), np.empty(0, dtype=int)
     start = StoredModel(
         runtime.equations,
         at.time,
@@ -99,9 +98,9 @@ def run_file(problem: Problem, settings: Settings, at: Point, way: Way, events: 
     )
     follows = closing_scales(problem, at, free) if compiled.constraints.size else problem.nominal[: compiled.nx]
     sections = {
-        **_sections(compiled, settings.energy, way.moves, events),
+        **_sections(compiled, settings.energy, way.moves),
         **start.start,
-        "damped": floats(sizes(problem, nominal, settings.spectrum.vibration)),
+        "damped": floats(sizes(problem, nominal, settings.spectrum.vibration if METHODS[way.method].damps else 0.0)),
         "nominal": floats([settings.span, way.tolerance, *nominal, *problem.loop_scales, *follows]),
         "natural": floats(nominal[compiled.nx :]),
         "token": b"run\0",
