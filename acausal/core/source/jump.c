@@ -1,5 +1,5 @@
 /* Whether the algebraic unknowns jump within a step: the method sees errors of states alone, and goes on where a solution ends,
-   with another one or with none. As `branches.py` finds it, here by bisection. */
+   with another one or with none. */
 #include "instance.h"
 #include "rodas.h"
 
