@@ -14,7 +14,6 @@ from acausal.compiler.call import Call
 from acausal.compiler.rounding import terms
 from acausal.compiler.set_valued_laws import SetValuedLaws
 from acausal.compiler.time_conditions import functions, scheduled_times, time_comparisons, truth
-from acausal.compiler.vectorized import Vectorized
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
@@ -249,17 +248,6 @@ class EventConditions:
     def needs(self) -> set[int]:
         """Algebraic unknowns on which the watched excesses and their rates depend."""
         return self._dependence.inside(ca.veccat(*self.motion))
-
-    @cached_property
-    def along(self) -> Vectorized:
-        """Function of x, z, parameters, time and constants: watched excesses, then their total time derivatives."""
-        excess, direct, by_z = self.motion[:3]
-        if not by_z.shape[1]:
-            return Vectorized(ca.Function("rates", self.arguments, [ca.vertcat(excess, direct)]))
-        parts = ca.Function("parts", self.arguments, list(self.motion))
-        inputs = [ca.MX.sym("i", a.numel()) for a in self.arguments]
-        value, rate, J, own, right = parts(*inputs)
-        return Vectorized(ca.Function("rates", inputs, [ca.vertcat(value, rate - J @ ca.solve(own, right, "qr"))]))
 
     def jump(self, guard: int) -> tuple[Call, list[tuple[bool, int]]]:
         """Return the new values as a function of x, z, parameters, time and constants; and targets: (is a state, number)."""

@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call, quiet
-from acausal.core import library, make_tape
+from acausal.core import make_tape
 
 # Points evaluated in one call of CasADi.
 AT_ONCE = 16
@@ -43,7 +43,7 @@ class Vectorized:
             return self._tape.rows(*arguments)
         n, first = next(len(a) for a in arguments if a.ndim == 2), 0
         self._places += n
-        if self._places > PAYS and library() and self.function.is_a("SXFunction"):
+        if self._places > PAYS and self.function.is_a("SXFunction"):
             self._tape = make_tape(self.function)
             return self._tape.rows(*arguments)
         found = np.full((n, self.function.nnz_out(0)), np.nan)
@@ -73,4 +73,4 @@ def vectorized(function: ca.Function) -> Callable[..., np.ndarray]:
     function : casadi.Function
         The function at one point, of scalar symbols (SX).
     """
-    return make_tape(function).rows if library() else Vectorized(function)
+    return make_tape(function).rows

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
 from acausal.policy.elimination import Elimination
-from acausal.policy.events import Agenda, Between, Clock, Instants, Laws, Locate, Looks, Rests, Sampling
-from acausal.policy.integrate import Branches, Calls, Consistent, Energy, Order, Rescue, Sizes
+from acausal.policy.events import Agenda, Clock, Instants, Laws, Rests, Sampling
+from acausal.policy.integrate import Calls, Consistent, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
 
@@ -29,9 +29,7 @@ class Policy:
     order: Order
     rescue: Rescue
     calls: Calls
-    branches: Branches
     consistent: Consistent
-    energy: Energy
     sizes: Sizes
     instants: Instants
     laws: Laws
@@ -39,9 +37,6 @@ class Policy:
     agenda: Agenda
     rests: Rests
     clock: Clock
-    looks: Looks
-    locate: Locate
-    between: Between
     meeting: Meeting
     promises: Promises
     validity: Validity
@@ -62,9 +57,7 @@ POLICY = Policy(
     Order(),
     Rescue(),
     Calls(),
-    Branches(),
     Consistent(),
-    Energy(),
     Sizes(),
     Instants(),
     Laws(),
@@ -72,9 +65,6 @@ POLICY = Policy(
     Agenda(),
     Rests(),
     Clock(),
-    Looks(),
-    Locate(),
-    Between(),
     Meeting(),
     Promises(),
     Validity(),

@@ -22,7 +22,6 @@ class Instants:
     part: float = 0.2
     parts: int = 100
     # Of the run: an excess that falls to 0 within that time does so now.
-    due: float = 1e-6
     # Events within that part of the run, or without any motion between them, that are chattering.
     most: int = 100
     window: float = 1e-9
@@ -71,8 +70,6 @@ class Sampling:
     # Rows at one go, and numbers in them: 8 MB.
     rows: int = 512
     numbers: int = 1_000_000
-    # Events at most that are left to the search after one that was in doubt, before the next try: twice as many each time.
-    longest: int = 64
 
 
 @dataclass(frozen=True)
@@ -106,77 +103,3 @@ class Clock:
     rounding: float = 1e-12
     # 2^-60 of an interval is rounding of the time.
     halvings: int = 60
-
-
-@dataclass(frozen=True)
-class Looks:
-    """Rows between outputs at which conditions are checked."""
-
-    # Parts of an interval at least.
-    fine: int = 8
-    # Pairs of rows of an interval that is looked into, and steps of the integrator between two rows: in less than so many
-    # nothing turns back.
-    densest: int = 32
-    steps_a_row: int = 4
-    # Steps of the core after which conditions are checked, at first; each time twice as many.
-    steps: int = 8
-    # How many times as many, where there were too few.
-    denser: int = 4
-    # Times since the last event in which the next one is looked for, where there are many in an interval.
-    ahead: float = 4.0
-    # The same in all intervals, that there may be at least: few are checked as often as many.
-    rows: int = 12_800
-    # Difference of output intervals, over them, that is rounding.
-    equal: float = 1e-9
-    # Of a step: an event that comes so early is looked for again in a shorter step, as what a step interpolates is off by a part
-    # of all that moves in it: a ball's first step in a run of 1e9 s takes days, in which it falls out of sight. Not where the
-    # time until then is that many rounding errors of the time, or fewer.
-    early: float = 1e-5
-    roundings: int = 1000
-
-
-@dataclass(frozen=True)
-class Locate:
-    """Crossings between two rows."""
-
-    # Levels of closer looks, suspects and tries of one leg.
-    depth: int = 3
-    suspects: int = 4
-    tries: int = 80
-    trial_steps: int = 20_000
-    # A condition may change within an interval that it could cross so much faster than it moves at the ends.
-    reach: float = 3.0
-    # A condition has changed where it is beyond 0 by that part of what the tolerance lets it be off.
-    level: float = 0.01
-    # Errors of the least value of a cubic, over their estimate.
-    error: float = 3.0
-    # Halvings of an interval beyond which there is no solution: 2^-40 of it.
-    halvings: int = 40
-    # Of an output interval: an event that near is on the output.
-    snap: float = 0.01
-    # Times at which a leg is checked between its rows.
-    looks: int = 4000
-    # Of the run: planned instants are no nearer to what has happened.
-    shortest: float = 1e-12
-    # Of the interval in which a change was found: so short a part is a straight line to rounding, as its bend is the square
-    # of that; and rounding errors of the time, between which no time is looked for.
-    straight: float = 1e-8
-    roundings: int = 4
-    # A look that is not beyond a change by its rounding error is followed by one that is so many times as far.
-    further: float = 64.0
-    # How far beside the predicted time the next look is, so that the change lies between both: as far as the prediction
-    # moved, at least this part of the shortest time, at most that of the interval.
-    beside: float = 1 / 3
-    aside: float = 0.1
-
-
-@dataclass(frozen=True)
-class Between:
-    """Points between rows, by cubics."""
-
-    # Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
-    faithful: float = 0.1
-    # Steps of an integration where it is not.
-    most_steps: int = 20_000
-    # Points of an interval whose defects tell whether its cubic is the motion.
-    looks: int = 5

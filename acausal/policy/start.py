@@ -100,13 +100,9 @@ class Loops:
     # Initial Levenberg-Marquardt damping, relative to the largest squared gradient of a residual. For random guesses of five
     # mechanisms, larger damping finds closer positions, with little difference above 0.1.
     damping: float = 0.1
-    # Conditioning of the independent constraints relative to all: below the first another subset is selected, above the second
-    # it stays at the start of a call. The best subsets of Bennett's linkage and of two cranks on a coupler have 0.56 to 0.98.
-    unfit: float = 0.25
+    # Conditioning of the independent constraints relative to all: above it the subset stays where an integration begins (below a
+    # quarter another one is selected, kept.c). The best subsets of Bennett's linkage and of two cranks have 0.56 to 0.98.
     fairly: float = 0.5
-    # Motion of the states of loops in the first call of an integrator that is checked afterwards, in nominal values: a tenth
-    # between two checks (`calls.fine`). Each further call is twice as long.
-    first: float = 6.0
     # Cosine between constraints and directions of projection: below it the selection is unsuitable, because errors grow with
     # its reciprocal, 20.
     worn: float = 0.05
@@ -132,13 +128,8 @@ class Loops:
     stays: float = 1e-2
     # Speed of joints at rest, in nominal values: rates in a singular configuration are not known better.
     rest: float = 1e-4
-    # Distance of an integrated coordinate from the projected one, relative to its scale, at which the projection fails.
-    apart: float = 0.1
     # Smallest singular value of scaled constraints in a singular configuration: below it, errors select the branch (flat.c).
-    # It is searched at so many points of a step, then repeatedly near the least of them, to 1 / 4^5 of a step.
     flat: float = 1e-3
-    parts: int = 8
-    zooms: int = 6
     # Time constants of the feedback of states to the constraints in a run (Baumgarte 1972): slow compared with the motion,
     # but sufficient to prevent an accumulation of errors.
     feedback: float = 10.0

@@ -14,7 +14,7 @@ from acausal.compiler.full_residuals import full_residuals
 from acausal.compiler.linearization import PointLinearization, with_entries
 from acausal.compiler.memo import memoized
 from acausal.compiler.vectorized import Vectorized
-from acausal.core import Settler, library
+from acausal.core import Settler
 from acausal.policy import POLICY
 from acausal.solve.coordinate_scaling import loop_scales
 from acausal.solve.point import Point, Rows
@@ -177,7 +177,7 @@ class Problem:
 
     def _solved_by_core(self, at: Point) -> tuple[Settler | None, np.ndarray | None]:
         """Solve for all algebraic unknowns by the core, if it has the equations; None if that does not converge."""
-        if not (self.runs and library() and self.nz):
+        if not (self.runs and self.nz):
             return None, None
         settler = Settler(core_square(self.compiled, tuple(range(self.nz))))
         z, settled = settler(
@@ -195,7 +195,7 @@ class Problem:
 
     def indicators(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
         """Return the event indicators and their time derivatives, one row for each time."""
-        found = self._motion(rows) if library() else self.each(self.compiled.guards.along, rows)
+        found = self._motion(rows)
         n = found.shape[1] // 2
         return found[:, :n], np.where(np.isfinite(found[:, n:]), found[:, n:], 0.0)
 

@@ -44,7 +44,6 @@ SOLVE = (
     "sparse_blocks",
     "coordinate_scaling",
     "problem",
-    "hermite",
     "looks",
     "diagnosis",
     "initialization",

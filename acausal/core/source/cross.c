@@ -4,6 +4,7 @@
    by small changes. */
 #include "hybrid.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,6 +15,11 @@
 #define ERRS 10      /* tolerances by which the cubic may be off: the polynomial that is taken is two orders better */
 #define MOVES 30     /* tolerances by which closing may move a state, which divides errors by that value: of n-four-bar at 1e-4 17 */
 #define VANISHES 0.1 /* of that singular value, at the place where it should be 0: else loops pass beside the configuration */
+
+#define WINDOW 32    /* steps, refused ones too: where they bring less than this part of the most that so many ... */
+#define CREEPS 1e-3  /* ... brought loops forward, and more than this part of them is refused, twice in a row, ... */
+#define OFTEN 0.15   /* ... unknowns grow without end: of n-four-bar at 1e-7, 19 to 48 % are */
+#define ROUNDINGS 1000 /* of the time: a step that passes a singular configuration is not shortened further */
 
 static double *past(const ac_instance *i, int32_t k) { return i->past + (size_t)k * (size_t)(1 + 2 * ac_states(i)); }
 
@@ -117,4 +123,38 @@ int ac_cross(ac_instance *i) {
     }
     ac_stand(i, time);
     return 0;
+}
+
+/* Whether steps bring closed loops hardly forward, and many of them are refused. */
+int ac_creeps(ac_instance *i, const ac_progress *done) {
+    ac_window *w = &i->window;
+    const double steps = (double)(done->steps - w->steps), refused = (double)(done->refused - w->refused);
+    if (!i->of->levels || steps + refused < WINDOW) return 0;
+    const double forward = i->now.to - w->time;
+    w->farthest = fmax(w->farthest, forward);
+    const int slow = forward < CREEPS * w->farthest && refused > OFTEN * (steps + refused);
+    w->steps = done->steps, w->refused = done->refused, w->time = i->now.to, w->slow = slow ? w->slow + 1 : 0;
+    return w->slow > 1;
+}
+
+/* Find out whether the last step passed a singular configuration of closed loops, and how far before that a shorter one ends. */
+int32_t ac_meet_flat(ac_instance *i, double *shorter) {
+    const int32_t nx = ac_states(i);
+    double *rates = i->looks + 3 * i->of->watched, where = 1;
+    int32_t failed = AC_OK;
+    *shorter = 0;
+    if (!i->of->levels || i->stepper->method->iterates) return AC_OK;
+    if (i->now.looked) ac_put(rates, rates + nx, nx);
+    for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
+        ac_stand(i, end ? i->now.to : i->now.from);
+        failed = ac_know(i, AC_RATE);
+        if (!failed) memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
+    }
+    const ac_point a = {i->now.from, i->before, rates}, b = {i->now.to, i->after, rates + nx};
+    if (failed ? !ac_is_flat(i) : !ac_flat(i, &a, &b, &where)) {
+        if (!failed) ac_remember(i, rates + nx);
+        return failed;
+    }
+    *shorter = where / 2 * (i->now.to - i->now.from);
+    return *shorter > ROUNDINGS * DBL_EPSILON * fabs(i->now.time) ? AC_OK : ac_refuse(i, AC_SINGULAR, AC_FLAT_TEXT);
 }

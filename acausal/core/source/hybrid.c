@@ -15,9 +15,6 @@
 #define ROUNDINGS 1000
 #define SHORTER 8       /* times as far as that event */
 #define DUE 1e-6        /* of a run: an indicator that falls to 0 within that time may do so now */
-#define WINDOW 32       /* steps of a closed loop, refused ones too: where they bring less than this part of the most that so many ... */
-#define CREEPS 1e-3     /* ... brought it forward, and more than this part of them is refused, twice in a row, ... */
-#define OFTEN 0.15      /* ... unknowns grow without end: of n-four-bar at 1e-7, 19 to 48 % are */
 
 /* States and guesses of algebraic unknowns at a time within the last step. */
 void ac_stand(ac_instance *i, double time) {
@@ -27,12 +24,6 @@ void ac_stand(ac_instance *i, double time) {
     ac_interpolate(n, rows, i->before, i->after, i->dense, s, nx, nz, i->z);
     i->now.time = time;
     ac_moved(i);
-}
-
-/* Tell a run why it cannot go on. */
-static int32_t refuse(ac_instance *i, int32_t why, const char *text) {
-    if (i->recorder) i->recorder->state->why = why;
-    return ac_fail(i, AC_FAILED, text);
 }
 
 /* Begin to integrate from the present, or go on after a step that was kept. */
@@ -91,18 +82,6 @@ static int may_step(ac_instance *i, double *left) {
     return r->left-- > 0 && r->since++ < r->run->longest;
 }
 
-/* Whether steps bring closed loops hardly forward, and many of them are refused. */
-static int creeps(ac_instance *i, const ac_progress *done) {
-    ac_window *w = &i->window;
-    const double steps = (double)(done->steps - w->steps), refused = (double)(done->refused - w->refused);
-    if (!i->of->levels || steps + refused < WINDOW) return 0;
-    const double forward = i->now.to - w->time;
-    w->farthest = fmax(w->farthest, forward);
-    const int slow = forward < CREEPS * w->farthest && refused > OFTEN * (steps + refused);
-    w->steps = done->steps, w->refused = done->refused, w->time = i->now.to, w->slow = slow ? w->slow + 1 : 0;
-    return w->slow > 1;
-}
-
 /* Integrate until a step is accepted; without one the present stays. */
 static int32_t advance(ac_instance *i, double *left) {
     static const char *const why[] = {
@@ -122,36 +101,14 @@ static int32_t advance(ac_instance *i, double *left) {
     if (!may && i->recorder && i->recorder->left < 0) return AC_PAUSE;
     if (!may && i->recorder) i->recorder->state->why = AC_MANY;
     if (!may) return ac_fail(i, AC_RETRY, "more steps are needed than the setting allows.");
-    if (!done.kept) return refuse(i, end, why[end]);
+    if (!done.kept) return ac_refuse(i, end, why[end]);
     memcpy(i->before, i->after, n * sizeof *i->before);
     memcpy(i->after, i->step_y, n * sizeof *i->after);
     i->now.from = i->now.to, i->now.to = done.time, i->now.first_step = i->rodas->h, i->now.pace = i->rodas->pace;
     i->now.longer = fmax(i->now.last, i->now.to - i->now.from), i->now.last = i->now.to - i->now.from;
     i->now.curved = 1, i->now.crosses = 0, i->now.event = INFINITY;
-    if (i->recorder && !(i->now.damping > 0) && creeps(i, &done)) return refuse(i, AC_SINGULAR, AC_FLAT_TEXT);
+    if (i->recorder && !(i->now.damping > 0) && ac_creeps(i, &done)) return ac_refuse(i, AC_SINGULAR, AC_FLAT_TEXT);
     return AC_OK;
-}
-
-/* Find out whether the last step passed a singular configuration of closed loops, and how far before that a shorter one ends. */
-static int32_t meet_flat(ac_instance *i, double *shorter) {
-    const int32_t nx = ac_states(i);
-    double *rates = i->looks + 3 * i->of->watched, where = 1;
-    int32_t failed = AC_OK;
-    *shorter = 0;
-    if (!i->of->levels || i->stepper->method->iterates) return AC_OK;
-    if (i->now.looked) ac_put(rates, rates + nx, nx);
-    for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
-        ac_stand(i, end ? i->now.to : i->now.from);
-        failed = ac_know(i, AC_RATE);
-        if (!failed) memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
-    }
-    const ac_point a = {i->now.from, i->before, rates}, b = {i->now.to, i->after, rates + nx};
-    if (failed ? !ac_is_flat(i) : !ac_flat(i, &a, &b, &where)) {
-        if (!failed) ac_remember(i, rates + nx);
-        return failed;
-    }
-    *shorter = where / 2 * (i->now.to - i->now.from);
-    return *shorter > ROUNDINGS * DBL_EPSILON * fabs(i->now.time) ? AC_OK : refuse(i, AC_SINGULAR, AC_FLAT_TEXT);
 }
 
 /* Whether an event comes so early in the first step that a shorter one has to locate it. */
@@ -181,7 +138,7 @@ static int is_due(ac_instance *i) {
 static int32_t check(ac_instance *i) {
     const double time = i->now.time;
     double shorter = 0;
-    int32_t failed = i->now.crosses ? AC_OK : meet_flat(i, &shorter);
+    int32_t failed = i->now.crosses ? AC_OK : ac_meet_flat(i, &shorter);
     if (!failed && !(shorter > 0) && !i->now.crosses && (failed = ac_refuse_jump(i)) && i->recorder) i->recorder->state->why = AC_FOLD;
     if (!failed && !(shorter > 0)) failed = ac_locate(i);
     if (!failed && is_early(i)) shorter = SHORTER * (i->now.event - i->now.from);

@@ -63,6 +63,9 @@ AC_PUBLIC double ac_run_undefined(const ac_instance *i, double *x, double *z);
 /* Set-valued laws that are redundant at rest, in the first decision that found some. */
 AC_PUBLIC void ac_redundant_laws(const ac_instance *i, double *redundant);
 
+int32_t ac_refuse(ac_instance *i, int32_t why, const char *text);
+int ac_creeps(ac_instance *i, const ac_progress *done);
+int32_t ac_meet_flat(ac_instance *i, double *shorter);
 int ac_is_full(const ac_instance *i);
 void ac_record_event(ac_instance *i, int32_t changed); /* and stand there; a row where anything changed */
 void ac_hold(ac_instance *i);           /* the present is what a run goes back to */

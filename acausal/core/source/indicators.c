@@ -4,7 +4,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define SAMPLES 4      /* of a step, beside its start */
@@ -37,33 +36,6 @@ static void copy(const ac_instance *i, sample *to, const sample *from) {
     ac_put(to->value, from->value, 3 * i->of->watched);
 }
 
-/* Whether any equation depends on a condition at row r of what was sampled; conditions that trigger events always matter. */
-static int matters(ac_instance *i, int32_t r, int32_t guard) {
-    const ac_equations *e = &i->of->parts.model.equations;
-    const ac_tape *t = e->values;
-    const int32_t on = i->of->guard[guard].on;
-    double *w = malloc((ac_tape_length(t) + (size_t)t->outputs) * sizeof *w), *found = w + ac_tape_length(t);
-    int different = !w || on < 0;
-    if (!different) {
-        memcpy(w, t->constant, (size_t)t->constants * sizeof *w);
-        double *input = w + t->constants, *c = input + e->nx + e->nz + 1 + e->np;
-        ac_put(input, i->samples.x + (ptrdiff_t)r * e->nx, e->nx), ac_put(input + e->nx, i->samples.z + (ptrdiff_t)r * e->nz, e->nz);
-        input[e->nx + e->nz] = i->samples.time[r];
-        ac_put(c - e->np, i->p, e->np), ac_put(c, i->c, e->nc);
-        for (int holds = 0; holds < 2; holds++) {
-            c[on] = holds;
-            ac_tape_run(t, w, 0, t->runs);
-            for (int32_t k = 0; k < t->outputs; k++) {
-                const double value = w[t->output[k]];
-                different |= holds && value != found[k] && !(isnan(value) && isnan(found[k]));
-                found[k] = value;
-            }
-        }
-    }
-    free(w);
-    return different;
-}
-
 /* Take row r of what was sampled, given what was known at the sample before it. A condition without a value that does not matter stays. */
 static int take(ac_instance *i, int32_t r, const sample *before, sample *to) {
     const int32_t m = i->of->watched;
@@ -72,7 +44,7 @@ static int take(ac_instance *i, int32_t r, const sample *before, sample *to) {
     for (int32_t k = 0; k < m; k++) {
         const double side = i->truth[k] > 0 ? -1 : 1;
         if (isnan(found[k])) {
-            if (matters(i, r, k)) return 0;
+            if (ac_matters(i, r, k)) return 0;
             found[k] = side * (1 + LEVEL) * i->width[k], found[m + k] = 0;
         }
         to->value[k] = side * found[k];

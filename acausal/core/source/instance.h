@@ -236,6 +236,7 @@ double ac_leeway(const ac_instance *i, int32_t guard);          /* time in which
 int32_t ac_refuse_discontinuity(ac_instance *i, double leeway); /* refuse jumps since the round began of what is differentiated */
 void ac_sample_step(ac_instance *i, int32_t rows);
 int32_t ac_sample_indicators(ac_instance *i, int32_t rows);
+int ac_matters(ac_instance *i, int32_t row, int32_t guard);      /* whether any equation depends on a condition in a sample */
 int32_t ac_sample_energies(ac_instance *i, int32_t rows);
 int32_t ac_locate(ac_instance *i);                              /* the first event of the last step */
 int32_t ac_add_work(ac_instance *i, double from, double to);

@@ -33,6 +33,12 @@ int32_t ac_run_begin(ac_instance *i, const ac_run_method *method, double time, c
     return AC_OK;
 }
 
+/* Tell a run why it cannot go on. */
+int32_t ac_refuse(ac_instance *i, int32_t why, const char *text) {
+    if (i->recorder) i->recorder->state->why = why;
+    return ac_fail(i, AC_FAILED, text);
+}
+
 static void put_row(ac_instance *i, double time) {
     const ac_equations *e = &i->of->parts.model.equations;
     const ac_run_request *r = i->recorder->run;

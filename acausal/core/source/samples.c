@@ -3,6 +3,7 @@
 #include "instance.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Scale of each algebraic unknown in some rows; values far below the largest may be round-off. */
@@ -102,4 +103,31 @@ int32_t ac_sample_energies(ac_instance *i, int32_t rows) {
     const row_inputs in = inputs_of(i, NULL, 0);
     ac_tape_rows(&i->of->row_tape[AC_ENERGIES], i->row_w, rows, 5, in.length, in.stride, in.part, s->found);
     return ac_all_finite(s->found, 3 * rows) ? AC_OK : ac_fail(i, AC_RETRY, "a power has no finite value.");
+}
+
+/* Whether any equation depends on a condition at row r of what was sampled; conditions that trigger events always matter. */
+int ac_matters(ac_instance *i, int32_t r, int32_t guard) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const ac_tape *t = e->values;
+    const int32_t on = i->of->guard[guard].on;
+    double *w = malloc((ac_tape_length(t) + (size_t)t->outputs) * sizeof *w), *found = w + ac_tape_length(t);
+    int different = !w || on < 0;
+    if (!different) {
+        memcpy(w, t->constant, (size_t)t->constants * sizeof *w);
+        double *input = w + t->constants, *c = input + e->nx + e->nz + 1 + e->np;
+        ac_put(input, i->samples.x + (ptrdiff_t)r * e->nx, e->nx), ac_put(input + e->nx, i->samples.z + (ptrdiff_t)r * e->nz, e->nz);
+        input[e->nx + e->nz] = i->samples.time[r];
+        ac_put(c - e->np, i->p, e->np), ac_put(c, i->c, e->nc);
+        for (int holds = 0; holds < 2; holds++) {
+            c[on] = holds;
+            ac_tape_run(t, w, 0, t->runs);
+            for (int32_t k = 0; k < t->outputs; k++) {
+                const double value = w[t->output[k]];
+                different |= holds && value != found[k] && !(isnan(value) && isnan(found[k]));
+                found[k] = value;
+            }
+        }
+    }
+    free(w);
+    return different;
 }

@@ -7,7 +7,6 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import laws_of_time
 from acausal.compiler.memo import memoized_latest
-from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.methods import METHODS
@@ -43,9 +42,9 @@ def ends_of_rests(integrator: Integrator, at: Point, end: float, outputs: np.nda
 
 
 def _after_rests(integrator: Integrator, at: Point, end: float, run: float) -> tuple[float, ...]:
-    """None for the multistep method, whose steps grow slowly, and without the core."""
+    """None for the multistep method, whose steps grow slowly."""
     way, problem = integrator.way, integrator.problem
-    if not library() or METHODS[way.method].multistep:
+    if METHODS[way.method].multistep:
         return ()
     parts = int(np.ceil(RESTS.parts * (end - at.time) / run))
     if parts <= RESTS.least:

@@ -31,18 +31,6 @@ def some(name: str) -> tuple[Problem, Rows]:
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_the_core_tells_what_casadi_tells(name):
-    problem, rows = some(name)
-    value, rate = problem.indicators(rows)
-    expected = problem.each(problem.compiled.guards.along, rows)
-    n = len(problem.compiled.guards.watched)
-    assert n
-    np.testing.assert_allclose(value, expected[:, :n], rtol=1e-13, atol=1e-13)
-    size = np.max(np.abs(expected[:, n:]), axis=0)
-    np.testing.assert_allclose(rate, expected[:, n:], rtol=1e-9, atol=1e-10 * np.max(size))
-
-
-@pytest.mark.parametrize("name", SCENES)
 def test_rates_are_those_of_the_motion(name):
     """Along short straight ways in the direction of the derivatives of the states."""
     problem, rows = some(name)
