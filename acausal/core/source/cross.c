@@ -16,21 +16,23 @@
 #define MOVES 30     /* tolerances by which closing may move a state, which divides errors by that value: of n-four-bar at 1e-4 17 */
 #define VANISHES 0.1 /* of that singular value, at the place where it should be 0: else loops pass beside the configuration */
 
+#define SURELY 2     /* times its change in a step: a larger value does not vanish within it */
 #define WINDOW 32    /* steps, refused ones too: where they bring less than this part of the most that so many ... */
 #define CREEPS 1e-3  /* ... brought loops forward, and more than this part of them is refused, twice in a row, ... */
 #define OFTEN 0.15   /* ... unknowns grow without end: of n-four-bar at 1e-7, 19 to 48 % are */
 #define ROUNDINGS 1000 /* of the time: a step that passes a singular configuration is not shortened further */
 
-static double *past(const ac_instance *i, int32_t k) { return i->past + (size_t)k * (size_t)(1 + 2 * ac_states(i)); }
+static size_t length_of(const ac_instance *i) { return 1 + (size_t)ac_states(i) + (size_t)i->of->parts.model.equations.nz; }
 
-/* Keep the end of the last step, at which rates are known. */
-void ac_remember(ac_instance *i, const double *rate) {
-    const size_t nx = (size_t)ac_states(i), length = 1 + 2 * nx;
+static double *past(const ac_instance *i, int32_t k) { return i->past + (size_t)k * length_of(i); }
+
+/* Keep the end of the last step. */
+static void keep_end(ac_instance *i) {
+    const size_t length = length_of(i);
     if (i->now.pasts < AC_PAST) i->now.pasts++;
     memmove(i->past + length, i->past, (AC_PAST - 1) * length * sizeof *i->past);
     i->past[0] = i->now.to;
-    memcpy(i->past + 1, i->after, nx * sizeof *i->past);
-    memcpy(i->past + 1 + nx, rate, nx * sizeof *i->past);
+    memcpy(i->past + 1, i->after, (length - 1) * sizeof *i->past);
 }
 
 /* The latest point at least some time before the last one, NULL for none. */
@@ -42,13 +44,13 @@ static const double *before(const ac_instance *i, double time) {
 }
 
 /* Newton's polynomial through values and rates of a state at three points; returns by how much it differs from that through two. */
-static double extrapolated(const double *const point[3], int32_t k, int32_t nx, double time, double *found) {
+static double extrapolated(const double *const point[3], const double *rate, int32_t k, int32_t nx, double time, double *found) {
     double table[NODES], change = 0, product = 1;
     for (int n = 0; n < NODES; n++) table[n] = point[n / 2][1 + k];
     for (int order = 1; order < NODES; order++) {
         for (int n = NODES - 1; n >= order; n--) {
             const double span = *point[n / 2] - *point[(n - order) / 2];
-            table[n] = span == 0 ? point[n / 2][1 + nx + k] : (table[n] - table[n - 1]) / span;
+            table[n] = span == 0 ? rate[n / 2 * nx + k] : (table[n] - table[n - 1]) / span;
         }
     }
     *found = 0;
@@ -64,15 +66,30 @@ static double size_of(const ac_instance *i, int32_t k, double value) {
     return (i->now.damping > 0 ? i->of->damped : i->of->parts.model.size)[k] + fabs(value);
 }
 
-/* Stand at a time on the polynomial through points so far apart; return whether it is exact enough. */
-static int stand(ac_instance *i, double time, double span) {
+/* Points so far apart, and the rates there: (3, nx). */
+static int32_t choose(ac_instance *i, double span, const double *point[3]) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    int32_t failed = AC_OK;
+    point[0] = past(i, 0), point[1] = before(i, span), point[2] = before(i, 2 * span);
+    if (!point[1] || !point[2]) return AC_RETRY;
+    for (int32_t k = 0; k < 3 && !failed; k++) {
+        ac_put(i->x, point[k] + 1, e->nx), ac_put(i->z, point[k] + 1 + e->nx, e->nz);
+        i->now.time = *point[k];
+        ac_moved(i);
+        failed = ac_know(i, AC_RATE);
+        if (!failed) ac_put(i->past_rate + k * e->nx, i->rate, e->nx);
+    }
+    ac_put(i->z, point[0] + 1 + e->nx, e->nz);
+    return failed;
+}
+
+/* Stand at a time on the polynomial through three points; return whether it is exact enough. */
+static int stand(ac_instance *i, const double *const point[3], double time) {
     const int32_t nx = ac_states(i);
-    const double *const point[] = {past(i, 0), before(i, span), before(i, 2 * span)};
-    if (!point[1] || !point[2]) return 0;
     i->now.time = time;
     ac_moved(i);
     for (int32_t k = 0; k < nx; k++) {
-        const double error = extrapolated(point, k, nx, time, &i->x[k]);
+        const double error = extrapolated(point, i->past_rate, k, nx, time, &i->x[k]);
         if (!(fabs(error) <= ERRS * i->now.tolerance * size_of(i, k, i->x[k]))) return 0;
     }
     return 1;
@@ -81,9 +98,10 @@ static int stand(ac_instance *i, double time, double span) {
 /* Stand on the other side, if the polynomial leads there and loops close by little. */
 static int32_t stand_beyond(ac_instance *i, double way, double least) {
     const int32_t nx = ac_states(i);
-    const double now = *past(i, 0), span = SPANS * 2 * way;
+    const double now = *past(i, 0), *point[3];
     double *to = i->order;
-    if (!stand(i, now + way, span) || !(ac_sharpness(i) <= least) || !stand(i, now + 2 * way, span)) return AC_RETRY;
+    if (choose(i, SPANS * 2 * way, point) || !stand(i, point, now + way) || !(ac_sharpness(i) <= least)) return AC_RETRY;
+    if (!stand(i, point, now + 2 * way)) return AC_RETRY;
     ac_put(to, i->x, nx);
     if (ac_close_all(i)) return AC_RETRY;
     for (int32_t k = 0; k < nx; k++) {
@@ -109,20 +127,17 @@ static void put_step(ac_instance *i, const double *rate) {
 
 /* Cross a singular configuration that is close ahead of the end of the last step; return whether that is the last step now. */
 int ac_cross(ac_instance *i) {
-    const double time = i->now.time;
-    if (!i->of->levels || i->now.pasts < 3 || i->now.crosses) return 0;
-    const double here = ac_sharpness(i);
-    if (!(here < CLOSE)) return 0;
-    ac_stand(i, i->now.from);
-    const double there = ac_sharpness(i), way = here / (there - here) * (i->now.to - i->now.from);
-    if (there > here && time + 2 * way < i->now.end && !stand_beyond(i, way, VANISHES * here)) {
-        put_step(i, past(i, 0) + 1 + ac_states(i));
-        ac_remember(i, i->rate);
-        ac_stand(i, time);
-        return 1;
+    const double time = i->now.time, here = i->now.sharp, there = i->now.sharp_before;
+    if (!i->of->levels || i->now.pasts < 3 || i->now.crosses || !(here < CLOSE && there > here)) return 0;
+    const double way = here / (there - here) * (i->now.to - i->now.from);
+    const int crosses = time + 2 * way < i->now.end && !stand_beyond(i, way, VANISHES * here);
+    if (crosses) {
+        i->now.sharp_before = here, i->now.sharp = ac_sharpness(i);
+        put_step(i, i->past_rate);
+        keep_end(i);
     }
     ac_stand(i, time);
-    return 0;
+    return crosses;
 }
 
 /* Whether steps bring closed loops hardly forward, and many of them are refused. */
@@ -137,24 +152,24 @@ int ac_creeps(ac_instance *i, const ac_progress *done) {
     return w->slow > 1;
 }
 
-/* Find out whether the last step passed a singular configuration of closed loops, and how far before that a shorter one ends. */
+static void part_of_step(ac_instance *i, double s) { ac_stand(i, i->now.from + s * (i->now.to - i->now.from)); }
+
+/* Find out whether the last step passed a singular configuration of closed loops, and how far before that a shorter one ends. It is
+   looked for where the least singular value is small against its changes in this step and, at the same pace, in the one before. */
 int32_t ac_meet_flat(ac_instance *i, double *shorter) {
-    const int32_t nx = ac_states(i);
-    double *rates = i->looks + 3 * i->of->watched, where = 1;
-    int32_t failed = AC_OK;
+    const double h = i->now.to - i->now.from;
     *shorter = 0;
-    if (!i->of->levels || i->stepper->method->iterates) return AC_OK;
-    if (i->now.looked) ac_put(rates, rates + nx, nx);
-    for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
-        ac_stand(i, end ? i->now.to : i->now.from);
-        failed = ac_know(i, AC_RATE);
-        if (!failed) memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
+    if (!i->of->levels || i->stepper->method->iterates || !(h > 0)) return AC_OK;
+    double ends[2] = {i->now.sharp, 0}, where, pace = i->now.sharp_pace;
+    if (!i->now.looked) part_of_step(i, 0), ends[0] = ac_sharpness(i), pace = 0;
+    part_of_step(i, 1);
+    ends[1] = ac_sharpness(i);
+    const double change = fmax(fabs(ends[1] - ends[0]), pace * h);
+    if (fmin(ends[0], ends[1]) > SURELY * change + CLOSE || !ac_flat(i, part_of_step, ends, &where)) {
+        i->now.sharp_before = ends[0], i->now.sharp = ends[1], i->now.sharp_pace = fabs(ends[1] - ends[0]) / h;
+        keep_end(i);
+        return AC_OK;
     }
-    const ac_point a = {i->now.from, i->before, rates}, b = {i->now.to, i->after, rates + nx};
-    if (failed ? !ac_is_flat(i) : !ac_flat(i, &a, &b, &where)) {
-        if (!failed) ac_remember(i, rates + nx);
-        return failed;
-    }
-    *shorter = where / 2 * (i->now.to - i->now.from);
+    *shorter = where / 2 * h;
     return *shorter > ROUNDINGS * DBL_EPSILON * fabs(i->now.time) ? AC_OK : ac_refuse(i, AC_SINGULAR, AC_FLAT_TEXT);
 }

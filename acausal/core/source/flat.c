@@ -10,62 +10,62 @@
 /* Whether the present position is flat, as far as can be told where the equations have no solution. */
 int ac_is_flat(ac_instance *i) { return ac_sharpness(i) <= WORN; }
 
-/* States between two points, as a cubic through their values and rates. */
-static void between(ac_instance *i, const ac_point *a, const ac_point *b, double s) {
-    const double h = b->time - a->time, r = 1 - s;
-    for (int32_t k = 0; k < ac_states(i); k++) {
-        const double step = b->x[k] - a->x[k];
-        i->x[k] = r * a->x[k] + s * b->x[k] + s * r * (r * (h * a->rate[k] - step) + s * (step - h * b->rate[k]));
-    }
-    i->now.time = a->time + s * h;
-}
-
-/* Whether loops pass a flat position between two points, which lie one step apart, and where, as a part of the step: the least value is
-   looked for by golden sections. */
-int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b, double *where) {
-    const ac_unit *u = i->of;
-    const int32_t nx = ac_states(i);
-    if (!u->levels || !(b->time > a->time)) return 0;
-    const double part = 0.5 * (sqrt(5) - 1), time = i->now.time;
-    double *kept = i->other, from = 0, to = 1, least;
-    memcpy(kept, i->x, (size_t)nx * sizeof *kept);
-    between(i, a, b, 0);
-    const double first = ac_sharpness(i);
-    between(i, a, b, 1);
-    const double last = ac_sharpness(i);
-    between(i, a, b, 0.5);
+/* Whether loops pass a flat position in a step whose ends have two least singular values, and where, as a part of it: the least value is
+   looked for by golden sections. `at` stands at a part of the step. */
+int32_t ac_flat(ac_instance *i, ac_part_of_step *at, const double ends[2], double *where) {
+    const double part = 0.5 * (sqrt(5) - 1);
+    double from = 0, to = 1;
+    at(i, 0.5);
     const double middle = ac_sharpness(i);
-    least = fmin(middle, fmin(first, last));
+    double least = fmin(middle, fmin(ends[0], ends[1]));
     /* It falls and rises about linearly: what passes 0 shows in a difference of the ends, or in the middle. */
-    if (isfinite(least) && (least <= fabs(first - last) + FLAT || middle < fmin(first, last))) {
+    if (isfinite(least) && (least <= fabs(ends[0] - ends[1]) + FLAT || middle < fmin(ends[0], ends[1]))) {
         for (int k = 0; k < 24 && least > FLAT; k++) {
             const double s = to - part * (to - from), t = from + part * (to - from);
-            between(i, a, b, s);
+            at(i, s);
             const double lower = ac_sharpness(i);
-            between(i, a, b, t);
+            at(i, t);
             const double upper = ac_sharpness(i);
             least = fmin(least, fmin(lower, upper));
             if (lower < upper) to = t;
             else from = s;
         }
     }
-    memcpy(i->x, kept, (size_t)nx * sizeof *kept);
-    i->now.time = time, *where = (from + to) / 2;
+    *where = (from + to) / 2;
     return least <= FLAT;
+}
+
+/* States between the last point that was kept and the present one, as a cubic through their values and rates. */
+static void between(ac_instance *i, double s) {
+    const int32_t nx = ac_states(i);
+    const double h = i->now.to - i->now.from, r = 1 - s;
+    const double *x = i->dense, *rate = i->dense + nx;
+    for (int32_t k = 0; k < nx; k++) {
+        const double step = x[k] - i->before[k];
+        i->x[k] = r * i->before[k] + s * x[k] + s * r * (r * (h * i->after[k] - step) + s * (step - h * rate[k]));
+    }
+    i->now.time = i->now.from + s * h;
 }
 
 /* In Model Exchange: whether loops passed a flat position since the last point that was kept, which the present follows. */
 int32_t ac_completed(ac_instance *i) {
-    const size_t size = (size_t)ac_states(i) * sizeof(double);
-    if (!i->of->levels || !size) return AC_OK;
+    const int32_t nx = ac_states(i);
+    if (!i->of->levels || !nx) return AC_OK;
     const int32_t failed = ac_know(i, AC_RATE);
     if (failed) return failed;
-    const ac_point a = {i->now.from, i->before, i->after}, b = {i->now.time, i->dense, i->rate};
-    memcpy(i->dense, i->x, size); /* the search moves x */
-    double where;
-    if (i->now.curved && ac_flat(i, &a, &b, &where)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
-    memcpy(i->before, i->x, size);
-    memcpy(i->after, i->rate, size);
+    ac_put(i->dense, i->x, nx), ac_put(i->dense + nx, i->rate, nx); /* the search moves x */
+    i->now.to = i->now.time;
+    if (i->now.curved && i->now.to > i->now.from) {
+        double ends[2], where;
+        ends[1] = ac_sharpness(i);
+        between(i, 0);
+        ends[0] = ac_sharpness(i);
+        const int32_t passes = ac_flat(i, between, ends, &where);
+        ac_put(i->x, i->dense, nx);
+        i->now.time = i->now.to;
+        if (passes) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+    }
+    ac_put(i->before, i->x, nx), ac_put(i->after, i->rate, nx);
     ac_keep(i);
     i->now.from = i->now.time, i->now.curved = 1;
     return AC_OK;

@@ -85,6 +85,7 @@ typedef struct {
     double crowd;                          /* since when events follow one another closely */
     double undefined;                      /* time at which a condition has no value; the values there stand in event_y */
     double delay;                          /* for how long the time of the event is uncertain by the tolerance */
+    double sharp, sharp_before, sharp_pace; /* smallest singular value of constraints at the ends of the last step, and its change over time */
     double firm;                           /* conditioning of the kept constraints when the integration began; 0 where none is spare */
     double since, longer, last;            /* where the output interval begins; the longer of the last two steps, and the last one */
     int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
@@ -151,7 +152,7 @@ struct ac_instance {
     size_t saved;                           /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
     double *before, *after, *dense;         /* interpolant: (n), (n), (AC_DENSE_ROWS, n); in Model Exchange the last point that was kept, its rates */
-    double *past;                           /* (AC_PAST, 1 + 2 nx) times, states and rates of the last steps, the latest first; for loops */
+    double *past, *past_rate;               /* (AC_PAST, 1 + n) times, x and z of the last steps, the latest first; (3, nx) rates; for loops */
     double *sure;                           /* x and z of the last point at which z was solved for */
     double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
@@ -159,7 +160,7 @@ struct ac_instance {
     ac_rodas *rodas;
     ac_stepper *idas, *stepper;             /* idas: NULL until a run asks for it; stepper: the one of the run */
     ac_multistep multistep;
-    double *looks;                          /* values, rates and levels of indicators at the end of the last step; rates of states at its ends */
+    double *looks;                          /* values, rates and levels of indicators at the end of the last step */
     double *least, *width, *peak;           /* of indicators: levels of what was not positive, tolerance bands, greatest values since the last event */
     ac_samples samples;
     double *event_y, *crossing;             /* states and algebraic unknowns at the event; indicators that change there */
@@ -182,11 +183,8 @@ struct ac_instance {
     char message[AC_MESSAGE];
 };
 
-/* States and their rates at a time. */
-typedef struct {
-    double time;
-    const double *x, *rate;
-} ac_point;
+/* Stands at a part of a step. */
+typedef void ac_part_of_step(ac_instance *i, double s);
 
 #define AC_UNSOLVED_TEXT "the equations have no solution here."
 #define AC_FLAT_TEXT "closed loops pass a flat position: two ways lead on from there, and rounding would choose one."
@@ -206,7 +204,6 @@ int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt,
 int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
 int32_t ac_close(ac_instance *i, const double *held, double *from);
 int32_t ac_close_all(ac_instance *i);
-void ac_remember(ac_instance *i, const double *rate);
 int ac_cross(ac_instance *i);
 void ac_follow_states(ac_instance *i);                          /* guesses of coordinates where the states have them */
 int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
@@ -245,7 +242,7 @@ void ac_add_jump(ac_instance *i, double change);
 double ac_sharpness(ac_instance *i);
 int ac_is_unfit(ac_instance *i);
 void ac_keep(ac_instance *i);
-int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b, double *where);
+int32_t ac_flat(ac_instance *i, ac_part_of_step *at, const double ends[2], double *where);
 int ac_is_flat(ac_instance *i);
 
 #endif

@@ -74,6 +74,8 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
         method=stats.method,
         constraints=stats.constraints,
     )
+    if loosened := stats.loosened_at:
+        return replace(found, error=f"no step was short enough for the tolerance after t = {loosened[0]:.6g} s")
     wrong = result.not_finite(*job.outputs)
     if wrong:
         name, time = next(iter(wrong.items()))
