@@ -11,11 +11,13 @@ import casadi as ca
 import numpy as np
 import scipy
 
+from acausal.compiler.algebraic_newton import NewtonStep, newton_steps
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
 from acausal.compiler.constraint_jacobian import Constraints
 from acausal.compiler.event_conditions import EventConditions
 from acausal.compiler.linearization import PointLinearization
+from acausal.compiler.memo import memoized
 from acausal.compiler.model_source import Source, pickled
 from acausal.compiler.parameters import Settable
 from acausal.compiler.report import AtStart, report, summary
@@ -148,6 +150,12 @@ class CompiledModel:
     def values(self) -> Call:
         """Function that returns ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
+
+    @memoized
+    def newton_steps(self, wanted: tuple[int, ...]) -> tuple[NewtonStep, ...]:
+        """Return Newton steps, in block order, that solve for algebraic unknowns and all on which they depend."""
+        alg = self._shared[self.nx : self.nx + self.nz]
+        return newton_steps(alg, self.reduced.z, self.arguments[:-1], *self.dependence.needed(wanted))
 
     @property
     def dependence(self) -> Dependence:

@@ -74,7 +74,7 @@ class RunState(Structure):
         ("step", c_double),
         ("supplied", c_double),
         ("dissipated", c_double),
-        *((name, c_int64) for name in ("steps", "refused", "factors", "values", "evaluations", "begun")),
+        *((name, c_int64) for name in ("steps", "refused", "factors", "values", "evaluations", "begun", "since")),
         *((name, c_int32) for name in ("rows", "events", "hasty", "why", "weak")),
     )
 

@@ -124,6 +124,9 @@ class Loops:
     stiff: float = 1e-6
     # Step out of a singular configuration in nominal values: the error of linearisation is its square.
     away: float = 1e-4
+    # The same where accelerations are taken from its middle and end, in so many iterations: the error is its third power.
+    farther: float = 1e-2
+    iterations: int = 6
     # Change of speeds in this step, relative to the largest speed: on a branch it is of the order of the step.
     stays: float = 1e-2
     # Speed of joints at rest, in nominal values: rates in a singular configuration are not known better.

@@ -9,10 +9,10 @@
 #include <string.h>
 
 #define CLOSE 0.02   /* smallest singular value of the constraints over their sizes: farther away none is looked for */
-#define SPANS 4      /* of the crossing, from its begin back to the second node of the polynomial; to the third one twice as many */
-#define NODES 6      /* three points, each with its rates */
-#define CUBIC 4      /* of them, for the polynomial that tells the error */
-#define ERRS 10      /* tolerances by which the cubic may be off: the polynomial that is taken is two orders better */
+#define SPANS 4      /* of the crossing, from one point back to the next */
+#define NODES (2 * AC_POINTS)
+#define LOWER (NODES - 2) /* nodes of the polynomial that tells the error */
+#define ERRS 10      /* tolerances by which that may be off: the polynomial that is taken is two orders better */
 #define MOVES 30     /* tolerances by which closing may move a state, which divides errors by that value: of n-four-bar at 1e-4 17 */
 #define VANISHES 0.1 /* of that singular value, at the place where it should be 0: else loops pass beside the configuration */
 
@@ -35,16 +35,8 @@ static void keep_end(ac_instance *i) {
     memcpy(i->past + 1, i->after, (length - 1) * sizeof *i->past);
 }
 
-/* The latest point at least some time before the last one, NULL for none. */
-static const double *before(const ac_instance *i, double time) {
-    for (int32_t k = 1; k < i->now.pasts; k++) {
-        if (*past(i, 0) - *past(i, k) >= time) return past(i, k);
-    }
-    return NULL;
-}
-
-/* Newton's polynomial through values and rates of a state at three points; returns by how much it differs from that through two. */
-static double extrapolated(const double *const point[3], const double *rate, int32_t k, int32_t nx, double time, double *found) {
+/* Newton's polynomial through values and rates of a state at some points; returns by how much it differs from that through one point less. */
+static double extrapolated(const double *const point[AC_POINTS], const double *rate, int32_t k, int32_t nx, double time, double *found) {
     double table[NODES], change = 0, product = 1;
     for (int n = 0; n < NODES; n++) table[n] = point[n / 2][1 + k];
     for (int order = 1; order < NODES; order++) {
@@ -56,7 +48,7 @@ static double extrapolated(const double *const point[3], const double *rate, int
     *found = 0;
     for (int n = 0; n < NODES; n++) {
         *found += product * table[n];
-        if (n >= CUBIC) change += product * table[n];
+        if (n >= LOWER) change += product * table[n];
         product *= time - *point[n / 2];
     }
     return change;
@@ -66,13 +58,16 @@ static double size_of(const ac_instance *i, int32_t k, double value) {
     return (i->now.damping > 0 ? i->of->damped : i->of->parts.model.size)[k] + fabs(value);
 }
 
-/* Points so far apart, and the rates there: (3, nx). */
-static int32_t choose(ac_instance *i, double span, const double *point[3]) {
+/* Points so far apart, and the rates there. */
+static int32_t choose(ac_instance *i, double span, const double *point[AC_POINTS]) {
     const ac_equations *e = &i->of->parts.model.equations;
     int32_t failed = AC_OK;
-    point[0] = past(i, 0), point[1] = before(i, span), point[2] = before(i, 2 * span);
-    if (!point[1] || !point[2]) return AC_RETRY;
-    for (int32_t k = 0; k < 3 && !failed; k++) {
+    for (int32_t k = 0, from = 0; k < AC_POINTS; k++, from++) {
+        while (from < i->now.pasts && *past(i, 0) - *past(i, from) < k * span) from++;
+        if (from >= i->now.pasts) return AC_RETRY;
+        point[k] = past(i, from);
+    }
+    for (int32_t k = 0; k < AC_POINTS && !failed; k++) {
         ac_put(i->x, point[k] + 1, e->nx), ac_put(i->z, point[k] + 1 + e->nx, e->nz);
         i->now.time = *point[k];
         ac_moved(i);
@@ -83,8 +78,8 @@ static int32_t choose(ac_instance *i, double span, const double *point[3]) {
     return failed;
 }
 
-/* Stand at a time on the polynomial through three points; return whether it is exact enough. */
-static int stand(ac_instance *i, const double *const point[3], double time) {
+/* Stand at a time on the polynomial through these points; return whether it is exact enough. */
+static int stand(ac_instance *i, const double *const point[AC_POINTS], double time) {
     const int32_t nx = ac_states(i);
     i->now.time = time;
     ac_moved(i);
@@ -98,7 +93,7 @@ static int stand(ac_instance *i, const double *const point[3], double time) {
 /* Stand on the other side, if the polynomial leads there and loops close by little. */
 static int32_t stand_beyond(ac_instance *i, double way, double least) {
     const int32_t nx = ac_states(i);
-    const double now = *past(i, 0), *point[3];
+    const double now = *past(i, 0), *point[AC_POINTS];
     double *to = i->order;
     if (choose(i, SPANS * 2 * way, point) || !stand(i, point, now + way) || !(ac_sharpness(i) <= least)) return AC_RETRY;
     if (!stand(i, point, now + 2 * way)) return AC_RETRY;
@@ -128,7 +123,7 @@ static void put_step(ac_instance *i, const double *rate) {
 /* Cross a singular configuration that is close ahead of the end of the last step; return whether that is the last step now. */
 int ac_cross(ac_instance *i) {
     const double time = i->now.time, here = i->now.sharp, there = i->now.sharp_before;
-    if (!i->of->levels || i->now.pasts < 3 || i->now.crosses || !(here < CLOSE && there > here)) return 0;
+    if (!i->of->levels || i->now.pasts < AC_POINTS || i->now.crosses || !(here < CLOSE && there > here)) return 0;
     const double way = here / (there - here) * (i->now.to - i->now.from);
     const int crosses = time + 2 * way < i->now.end && !stand_beyond(i, way, VANISHES * here);
     if (crosses) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #define FLAT 1e-3      /* smallest singular value of the constraints over their sizes: nearer, errors choose the way */
+#define INSIDE 0.9     /* of that at the ends of a step: a larger least value is at one of them */
 #define WORN 0.03      /* the same where the equations cannot be solved any more */
 
 /* Whether the present position is flat, as far as can be told where the equations have no solution. */
@@ -32,7 +33,7 @@ int32_t ac_flat(ac_instance *i, ac_part_of_step *at, const double ends[2], doubl
         }
     }
     *where = (from + to) / 2;
-    return least <= FLAT;
+    return least <= FLAT && least < INSIDE * fmin(ends[0], ends[1]);
 }
 
 /* States between the last point that was kept and the present one, as a cubic through their values and rates. */

@@ -30,6 +30,7 @@ typedef struct {
     double time, step;               /* reached; the longer of the last two steps, 0 for none */
     double supplied, dissipated;     /* energies since it began */
     int64_t steps, refused, factors, values, evaluations, begun;
+    int64_t since;                   /* steps since the last output or event */
     int32_t rows, events, hasty, why; /* why: as of `ac_stepper_go`, or below */
     int32_t weak;                    /* events in a row with hardly any motion between */
 } ac_run_state;

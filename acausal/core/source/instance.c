@@ -33,7 +33,7 @@ static size_t lay_out(ac_instance *i, double *at) {
     } part[] = {
         {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
         {&i->crossed, watched}, {&i->sure, n}, {&i->looks, 3 * watched}, {&i->least, watched}, {&i->width, watched},
-        {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->past, u->levels ? AC_PAST * (1 + n) : 0}, {&i->dense, AC_DENSE_ROWS * n}, {&i->past_rate, u->levels ? 3 * nx : 0}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
+        {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->past, u->levels ? AC_PAST * (1 + n) : 0}, {&i->dense, AC_DENSE_ROWS * n}, {&i->past_rate, u->levels ? AC_POINTS * nx : 0}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
         {&i->step_y, n}, {&i->order, 3 * n + 1}, {&i->sampled, AC_SLOTS * 3 * watched}, {&i->errors, AC_SLOTS * watched},
         {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->round, n + nc + watched},

@@ -107,6 +107,7 @@ enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16, AC_FACTO
 
 #define AC_ROWS 32         /* points at which indicators or powers are evaluated at once, at most */
 #define AC_FIRST_SAMPLES 8 /* samples of the first step after an event */
+#define AC_POINTS 4        /* points of the polynomial by which they cross it */
 #define AC_PAST 24         /* steps that are remembered to cross a singular configuration: they shrink by a third or less on the way */
 #define AC_DUE 2           /* of `crossed`: the condition holds now whatever its value, until that changes */
 #define AC_SLOTS 52        /* samples of indicators in a step that are kept at a time */
@@ -152,7 +153,7 @@ struct ac_instance {
     size_t saved;                           /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
     double *before, *after, *dense;         /* interpolant: (n), (n), (AC_DENSE_ROWS, n); in Model Exchange the last point that was kept, its rates */
-    double *past, *past_rate;               /* (AC_PAST, 1 + n) times, x and z of the last steps, the latest first; (3, nx) rates; for loops */
+    double *past, *past_rate;               /* (AC_PAST, 1 + n) times, x and z of the last steps, the latest first; (AC_POINTS, nx) rates; for loops */
     double *sure;                           /* x and z of the last point at which z was solved for */
     double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */

@@ -79,7 +79,7 @@ void ac_retreat(ac_instance *i) {
 }
 
 int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state) {
-    struct ac_recorder recorder = {.run = run, .state = state, .left = run->steps};
+    struct ac_recorder recorder = {.run = run, .state = state, .left = run->steps, .since = state->since};
     int32_t failed = AC_OK, event = 0, output = 0, end = AC_RUN_END;
     i->recorder = &recorder, i->now.stop = run->end, i->now.weak = state->weak;
     state->rows = state->events = state->hasty = state->why = 0;
@@ -104,7 +104,7 @@ int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state
     state->supplied = i->energy[0], state->dissipated = i->energy[1];
     state->steps = i->counts.steps, state->refused = i->counts.refused;
     state->factors = i->counts.factors, state->values = i->counts.values, state->evaluations = i->counts.evaluations;
-    state->begun = i->counts.begun;
+    state->begun = i->counts.begun, state->since = recorder.since;
     return end;
 }
 

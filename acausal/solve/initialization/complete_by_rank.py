@@ -17,7 +17,7 @@ from acausal.solve.initialization.coordinate_partitioning import choose_projecti
 from acausal.solve.initialization.fixed_states import soft
 from acausal.solve.initialization.independent_constraints import reselected
 from acausal.solve.initialization.minimum_norm_reactions import minimum_norm_reactions
-from acausal.solve.initialization.newton import InitialSystem
+from acausal.solve.initialization.newton import InitialSystem, algebraic
 from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.initialization.redundancy import Redundancy, find_redundancy
 from acausal.solve.point import Point
@@ -183,4 +183,27 @@ def leave_singular(problem: Problem, at: Point) -> Point:
             "to none of them. Give those of one branch (guess(...) leaves dependent joints free), or start 0.01 rad away "
             "from it."
         )
-    return left
+    return _farther(problem, at, left, LOOPS.farther * later / LOOPS.away)
+
+
+def _farther(problem: Problem, at: Point, left: Point, span: float) -> Point:
+    """Continue from a singular configuration to a time at which accelerations are well known, on the branch of a nearer point.
+
+    Collocation at the middle and the end of the time: x' is linear between them, and not evaluated at its begin.
+    """
+    nx, middle, end = problem.nx, left, left
+
+    def rate(there: Point) -> np.ndarray:
+        there = replace(there, constants=choose_projection(problem, there, spare=False))
+        return problem.values(algebraic(problem, problem.completed(there)))[:nx]
+
+    def moved(part: float, step: np.ndarray) -> Point:
+        return close(problem, replace(at, time=at.time + part * span, x=at.x + span * step), np.empty(0, int))[0]
+
+    try:
+        for _ in range(LOOPS.iterations):
+            f, g = rate(middle), rate(end)
+            middle, end = moved(0.5, (3 * f - g) / 4), moved(1.0, f)
+    except InitializationError:
+        return left
+    return end if np.all(np.isfinite(end.x)) else left
