@@ -67,7 +67,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     """
     begun = start(problem, time, later, initial)
     at = begun.point
-    if leave_singular_start(problem, begun) is not at:
+    if leave_singular_start(problem, begun, later) is not at:
         raise ExportError(
             f"the model starts in a singular configuration, t = {time:g} s, from where equations alone lead no further. Let it "
             "start beside that."

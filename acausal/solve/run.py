@@ -131,7 +131,11 @@ class _Done:
 def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, InitialPoint]:
     problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time), runs=True)
     plan = _plan(problem, task)
-    return problem, plan, initial_point(problem, task.start_time, plan.inside, task.initial)
+    return (
+        problem,
+        plan,
+        initial_point(problem, task.start_time, plan.inside, min(plan.inside, float(plan.times[1])), task.initial),
+    )
 
 
 def _plan(problem: Problem, task: Task) -> _Plan:

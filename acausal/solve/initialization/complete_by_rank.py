@@ -160,19 +160,29 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
     return sorted(int(free[k]) for k in order)
 
 
-def leave_singular(problem: Problem, at: Point) -> Point:
-    """Continue from a singular configuration along the velocity, so briefly that accelerations do not matter."""
+def leave_singular(problem: Problem, at: Point, within: float, regular: bool) -> Point:
+    """Continue from a singular configuration along the velocity, to a time before the first output or event.
+
+    A nearly singular one, which is regular, determines accelerations and the branch, and may be at rest.
+    """
     x = at.x
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
     moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
     coordinates, rates = pairs[moving].T
     sizes = problem.loop_scales
-    if not np.any(np.abs(x[rates]) > LOOPS.rest * sizes[rates]):
+    rests = not np.any(np.abs(x[rates]) > LOOPS.rest * sizes[rates])
+    if rests and regular:
+        return at
+    if rests:
         raise InitializationError(
             f"the start at t = {at.time:g} s is a singular configuration at rest: the branch on which the loops continue is "
             "undetermined. Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
-    later = LOOPS.away / float(np.max(np.abs(x[rates]) / sizes[coordinates]))
+    pace = float(np.max(np.abs(x[rates]) / sizes[coordinates]))
+    span = min(LOOPS.farther / pace, (within - at.time) / 2)
+    if regular:
+        return _farther(problem, at, at, span)
+    later = LOOPS.away / pace
     moved = x.copy()
     moved[coordinates] += later * x[rates]
     left = close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]
@@ -183,27 +193,28 @@ def leave_singular(problem: Problem, at: Point) -> Point:
             "to none of them. Give those of one branch (guess(...) leaves dependent joints free), or start 0.01 rad away "
             "from it."
         )
-    return _farther(problem, at, left, LOOPS.farther * later / LOOPS.away)
+    return _farther(problem, at, left, span)
 
 
-def _farther(problem: Problem, at: Point, left: Point, span: float) -> Point:
-    """Continue from a singular configuration to a time at which accelerations are well known, on the branch of a nearer point.
+def _farther(problem: Problem, at: Point, near: Point, span: float) -> Point:
+    """Continue from a singular configuration to a time at which accelerations are well known, on the branch of a near point.
 
     Collocation at the middle and the end of the time: x' is linear between them, and not evaluated at its begin.
     """
-    nx, middle, end = problem.nx, left, left
 
     def rate(there: Point) -> np.ndarray:
         there = replace(there, constants=choose_projection(problem, there, spare=False))
-        return problem.values(algebraic(problem, problem.completed(there)))[:nx]
+        return problem.values(algebraic(problem, problem.completed(there)))[: problem.nx].copy()
 
     def moved(part: float, step: np.ndarray) -> Point:
         return close(problem, replace(at, time=at.time + part * span, x=at.x + span * step), np.empty(0, int))[0]
 
+    end = near
     try:
+        f = g = rate(near)
         for _ in range(LOOPS.iterations):
-            f, g = rate(middle), rate(end)
             middle, end = moved(0.5, (3 * f - g) / 4), moved(1.0, f)
+            f, g = rate(middle), rate(end)
     except InitializationError:
-        return left
-    return end if np.all(np.isfinite(end.x)) else left
+        return near
+    return end if np.all(np.isfinite(end.x)) else near

@@ -19,6 +19,7 @@ from acausal.solve.diagnosis.undefined_start_values import undefined_start_value
 from acausal.solve.initialization.complete_by_rank import leave_singular
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.equilibrium import NoEquilibrium
+from acausal.solve.initialization.independent_constraints import smallest_singular_value
 from acausal.solve.initialization.initialize import INITIAL, TURNING, Start, first_guess, initialize
 from acausal.solve.initialization.mode_search import MOST_TRIED, ModeSearch
 from acausal.solve.initialization.newton import NoConvergence, algebraic
@@ -174,11 +175,12 @@ def _initial_mode(problem: Problem, at: Point, doubtful: np.ndarray, head: np.nd
     return found
 
 
-def leave_singular_start(problem: Problem, start: Start) -> Point:
-    """Return a point beyond a singular start, where the equations do not determine the motion; else the start itself."""
-    if not start.redundancy.singular:
+def leave_singular_start(problem: Problem, start: Start, within: float) -> Point:
+    """Return a point beyond a singular start, at which equations do not determine the motion, before a time; else the start."""
+    singular = start.redundancy.singular
+    if not singular and smallest_singular_value(problem, start.point) > POLICY.loops.flat:
         return start.point
-    at = leave_singular(problem, start.point)
+    at = leave_singular(problem, start.point, within, not singular)
     at = replace(at, constants=choose_projection(problem, at, spare=False))
     return algebraic(problem, problem.completed(at))
 

@@ -40,12 +40,15 @@ class InitialPoint:
     seconds: float
 
 
-def initial_point(problem: Problem, time: float, later: float, initial: str) -> InitialPoint:
-    """Return the initial point, see `start`, or that of the last run of the model if all numbers are the same."""
+def initial_point(problem: Problem, time: float, later: float, within: float, initial: str) -> InitialPoint:
+    """Return the initial point, see `start`, or that of the last run of the model if all numbers are the same.
+
+    A run from a singular configuration begins before the time `within`.
+    """
     if initial == "steady":  # every run shall warn of an unstable equilibrium
-        return _computed(problem, time, later, initial)
+        return _computed(problem, time, later, within, initial)
     # As bytes: 0 and -0 are equal numbers.
-    numbers = np.array([problem.feedback, time, later, *problem.p])
+    numbers = np.array([problem.feedback, time, later, within, *problem.p])
     return shared_point(problem.compiled, numbers.tobytes(), initial)
 
 
@@ -56,9 +59,9 @@ def forget(compiled: CompiledModel) -> None:
 
 @memoized_latest(1)
 def shared_point(compiled: CompiledModel, numbers: bytes, initial: str) -> InitialPoint:
-    """Return the initial point for the bytes of feedback, start time, first event time and parameters."""
-    (feedback, time, later), p = np.split(np.frombuffer(numbers), [3])
-    found = _computed(Problem(compiled, p, float(feedback), runs=True), float(time), float(later), initial)
+    """Return the initial point for the bytes of feedback, start time, first event time, first output time and parameters."""
+    (feedback, *times), p = np.split(np.frombuffer(numbers), [4])
+    found = _computed(Problem(compiled, p, float(feedback), runs=True), *map(float, times), initial)
     # Runs share these arrays.
     for at in (found.start.point, found.at):
         for array in (at.x, at.z, at.mode):
@@ -66,12 +69,12 @@ def shared_point(compiled: CompiledModel, numbers: bytes, initial: str) -> Initi
     return found
 
 
-def _computed(problem: Problem, time: float, later: float, initial: str) -> InitialPoint:
+def _computed(problem: Problem, time: float, later: float, within: float, initial: str) -> InitialPoint:
     started, made = clock.perf_counter(), memo_seconds(problem.compiled)
     begun = start(problem, time, later, initial)
     check_start(problem, begun.point)
     if initial == "steady":
         InitialEvents(problem, time, later).refuse_transient(begun.point)
-    at = leave_singular_start(problem, begun)
+    at = leave_singular_start(problem, begun, within)
     spectrum, building = Spectrum(problem, at), memo_seconds(problem.compiled) - made
     return InitialPoint(begun, at, spectrum, clock.perf_counter() - started - building)

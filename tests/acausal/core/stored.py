@@ -30,7 +30,9 @@ def scene(name: str) -> StoredModel:
     """Return a scene as it starts; projections of its closed loops move."""
     model, span = compiled(SCENES[name]), SPANS[name]
     problem = Problem(model, model.parameter_values(None), POLICY.loops.feedback / span)
-    at = leave_singular_start(problem, start(problem, 0.0, span / 20, "fixed"))  # before anything changes by the clock
+    at = leave_singular_start(
+        problem, start(problem, 0.0, span / 20, "fixed"), span / 20
+    )  # before anything changes by the clock
     moves = bool(model.constraints.size)
     if moves:
         at = problem.projected(at)
