@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define CLOSE 0.02   /* smallest singular value of the constraints over their sizes: farther away none is looked for */
+#define PARTS 3      /* of a step: points that are kept of it */
 #define SPANS 4      /* of the crossing, from one point back to the next */
 #define NODES (2 * AC_POINTS)
 #define LOWER (NODES - 2) /* nodes of the polynomial that tells the error */
@@ -26,13 +27,19 @@ static size_t length_of(const ac_instance *i) { return 1 + (size_t)ac_states(i) 
 
 static double *past(const ac_instance *i, int32_t k) { return i->past + (size_t)k * length_of(i); }
 
-/* Keep the end of the last step. */
-static void keep_end(ac_instance *i) {
+/* Keep some points of the last step, its end among them; of a crossing that alone. */
+static void keep_points(ac_instance *i) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const int32_t parts = i->now.crosses ? 1 : PARTS;
     const size_t length = length_of(i);
-    if (i->now.pasts < AC_PAST) i->now.pasts++;
-    memmove(i->past + length, i->past, (AC_PAST - 1) * length * sizeof *i->past);
-    i->past[0] = i->now.to;
-    memcpy(i->past + 1, i->after, (length - 1) * sizeof *i->past);
+    memmove(i->past + (size_t)parts * length, i->past, (size_t)(AC_PAST - parts) * length * sizeof *i->past);
+    for (int32_t k = 0; k < parts; k++) {
+        double *to = past(i, k);
+        ac_stand(i, i->now.to - k * (i->now.to - i->now.from) / parts);
+        *to = i->now.time;
+        ac_put(to + 1, i->x, e->nx), ac_put(to + 1 + e->nx, i->z, e->nz);
+    }
+    i->now.pasts = i->now.pasts + parts < AC_PAST ? i->now.pasts + parts : AC_PAST;
 }
 
 /* Newton's polynomial through values and rates of a state at some points; returns by how much it differs from that through one point less. */
@@ -129,7 +136,7 @@ int ac_cross(ac_instance *i) {
     if (crosses) {
         i->now.sharp_before = here, i->now.sharp = ac_sharpness(i);
         put_step(i, i->past_rate);
-        keep_end(i);
+        keep_points(i);
     }
     ac_stand(i, time);
     return crosses;
@@ -162,7 +169,7 @@ int32_t ac_meet_flat(ac_instance *i, double *shorter) {
     const double change = fmax(fabs(ends[1] - ends[0]), pace * h);
     if (fmin(ends[0], ends[1]) > SURELY * change + CLOSE || !ac_flat(i, part_of_step, ends, &where)) {
         i->now.sharp_before = ends[0], i->now.sharp = ends[1], i->now.sharp_pace = fabs(ends[1] - ends[0]) / h;
-        keep_end(i);
+        keep_points(i);
         return AC_OK;
     }
     *shorter = where / 2 * h;

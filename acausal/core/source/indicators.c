@@ -260,7 +260,8 @@ int32_t ac_locate(ac_instance *i) {
     int32_t failed = AC_OK, fresh = !i->now.looked;
     if (fresh) failed = begin(i, &at[0]);
     if (failed) return failed;
-    const int32_t parts = spread(i, fresh ? AC_FIRST_SAMPLES : SAMPLES);
+    /* Within a crossing the equations may have no unique solution. */
+    const int32_t parts = spread(i, i->now.crosses ? 1 : fresh ? AC_FIRST_SAMPLES : SAMPLES);
     ac_sample_step(i, parts);
     failed = ac_sample_indicators(i, parts);
     double *range = i->errors + (ptrdiff_t)DEPTH * m, *error = range + m;
@@ -276,7 +277,8 @@ int32_t ac_locate(ac_instance *i) {
         for (int32_t k = 0; k < m; k++) {
             error[k] = fmax(r > 1 ? off(&at[r - 2], &at[r - 1], &at[r], k) : 0, r < parts ? off(&at[r - 1], &at[r], &at[r + 1], k) : 0);
         }
-        failed = seek(i, &at[r - 1], &at[r], error, range, 0, &left);
+        if (!i->now.crosses) failed = seek(i, &at[r - 1], &at[r], error, range, 0, &left);
+        else if (crosses(i, &at[r])) failed = narrow(i, &at[r - 1], &at[r]);
         for (int32_t k = 0; k < m && !isfinite(i->now.event); k++) i->peak[k] = fmax(i->peak[k], at[r].value[k]);
     }
     if (!failed) copy(i, &at[0], &at[parts]);

@@ -108,7 +108,7 @@ enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16, AC_FACTO
 #define AC_ROWS 32         /* points at which indicators or powers are evaluated at once, at most */
 #define AC_FIRST_SAMPLES 8 /* samples of the first step after an event */
 #define AC_POINTS 4        /* points of the polynomial by which they cross it */
-#define AC_PAST 24         /* steps that are remembered to cross a singular configuration: they shrink by a third or less on the way */
+#define AC_PAST 72         /* points of steps that are remembered to cross a singular configuration: steps shrink by a third or less on the way */
 #define AC_DUE 2           /* of `crossed`: the condition holds now whatever its value, until that changes */
 #define AC_SLOTS 52        /* samples of indicators in a step that are kept at a time */
 
