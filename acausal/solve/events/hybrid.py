@@ -54,6 +54,8 @@ class Passed:
         Supplied and dissipated energy in J since the last row.
     refusal : Refusal or None
         Why the loop cannot go on from there.
+    goes_on : bool
+        Whether the next slice continues this one.
     """
 
     leg: Leg | None
@@ -63,6 +65,7 @@ class Passed:
     weak: int
     work: np.ndarray
     refusal: Refusal | None
+    goes_on: bool = False
 
 
 class Hybrid:
@@ -116,7 +119,7 @@ class Hybrid:
         refusal = self._refusal(run, way, point) if back is Back.DOUBT else None
         if refusal and refusal.kind in (Kind.STEPS, Kind.STALLED) and self._may_go_on(way):
             refusal = None
-        return Passed(leg, point, found.events.tolist(), changes, run.state.weak, work, refusal)
+        return Passed(leg, point, found.events.tolist(), changes, run.state.weak, work, refusal, self._at is not None)
 
     def restart(self) -> None:
         """Choose the next first step anew."""
