@@ -87,7 +87,11 @@ static void look_at_clock(ac_instance *i, round_of *r) {
             const int now = w[u->tape[AC_TIMED].output[j]] > 0.5;
             /* At the start what holds at that very instant held before, unless it acts there. */
             if (k == 0) i->held[j] = g->on >= 0 ? i->held[j] : now && !g->at_start;
-            else note(u, r, u->watched + j, now, i->held[j] > 0), i->held[j] = now;
+            else {
+                note(u, r, u->watched + j, now, i->held[j] > 0);
+                if (now != i->held[j]) i->now.longer = 0; /* what the clock changes tells nothing of the steps after it */
+                i->held[j] = now;
+            }
         }
     }
     i->now.time = time;

@@ -163,14 +163,19 @@ static int32_t land(ac_instance *i, const sample *a, const sample *b, sample *fo
     return AC_OK;
 }
 
-/* Note the event: its time, which indicators changed, and for how long its time is uncertain by the tolerance. */
+/* Note the event: its time, which indicators changed, and for how long its time is uncertain by the tolerance, with the scales there. */
 static void note(ac_instance *i, const sample *at) {
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz;
     double delay = INFINITY;
+    ac_put(i->x, i->event_y, nx), ac_put(i->z, i->event_y + nx, nz);
+    i->now.time = at->time;
+    ac_moved(i);
+    ac_find_scales(i);
     i->now.weak++;
     for (int32_t k = 0; k < i->of->watched; k++) {
         i->crossing[k] = at->value[k] <= 0;
         if (!i->crossing[k]) continue;
-        delay = fmin(delay, i->width[k] / fmax(fabs(at->rate[k]), DBL_MIN));
+        delay = fmin(delay, ac_width(i, k) / fmax(fabs(at->rate[k]), DBL_MIN));
         if (i->peak[k] > i->width[k]) i->now.weak = 0;
     }
     i->now.event = at->time, i->now.delay = delay;

@@ -76,7 +76,7 @@ class Course:
         self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
         for end in ends:
             if at.time != self.times[0]:
-                at = replace(at)  # a break begins a new integration
+                self.hybrid.restart()
                 now = self.agenda.between(at.time, end)
                 at, held = self._at_break(at, now, held), now
             self._refuse_undecided(at, end)

@@ -10,11 +10,6 @@ from acausal import Model, Scalar, der, exp, parameter, piecewise, time, variabl
 from tests.shared import compiled
 
 BREAK = 0.5
-LATE = pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="the first step behind a break time is as long as the one before it, and the event is located on its interpolation",
-)
 
 
 class Sticking(Model):
@@ -51,7 +46,6 @@ def late(result: ac.Result) -> float:
     return next((t for t in result.stats.event_times if t > BREAK), np.inf) - BREAK
 
 
-@LATE
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-5, 1e-6])
 def test_a_mass_breaks_away(tolerance: float) -> None:
     """As Radau of scipy and IDAS at 1e-11 have it: the speed passes 1 mm/s after 6.72 microseconds."""
@@ -60,7 +54,6 @@ def test_a_mass_breaks_away(tolerance: float) -> None:
     assert result["x"][-1] == pytest.approx(1.086143e-3, abs=max(tolerance, 1e-5))
 
 
-@LATE
 @pytest.mark.parametrize("level", [0.1, 0.6])
 def test_a_lag_reaches_its_level(level: float) -> None:
     """It does so -tau log(1 - level) behind the break time."""

@@ -10,11 +10,6 @@ from acausal import Model, Scalar, der, parameter, piecewise, quantity, variable
 from tests.shared import compiled
 
 G, STIFFNESS, DAMPING = 9.81, 1e6, 2000.0
-SNAPS = pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="an event of a joined condition counts as at an output that is nearer than the width of its stiffest part allows",
-)
 
 
 class Drop(Model):
@@ -48,7 +43,6 @@ class Play(Model):
         yield der(self.count) == piecewise((1, (self.phi > self.meets) & (torque > -1)), 0)
 
 
-@SNAPS
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
 def test_a_row_just_before_the_contact_is_of_the_free_fall(tolerance: float) -> None:
     t0 = 0.70004
@@ -59,7 +53,6 @@ def test_a_row_just_before_the_contact_is_of_the_free_fall(tolerance: float) -> 
     assert result["force"][140] == 0
 
 
-@SNAPS
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
 def test_a_contact_just_before_a_row_is_not_put_off(tolerance: float) -> None:
     """The mass is 0.26 mm deep by then."""
@@ -72,7 +65,6 @@ def test_a_contact_just_before_a_row_is_not_put_off(tolerance: float) -> None:
     assert result["x"][140] == pytest.approx(deep, abs=2e-6)
 
 
-@SNAPS
 @pytest.mark.parametrize("meets", [0.49996, 0.29998])
 def test_a_gear_is_met_when_it_is(meets: float) -> None:
     result = ac.simulate(compiled(Play), stop_time=1.0, intervals=200, parameters={"meets": meets})

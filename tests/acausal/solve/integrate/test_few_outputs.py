@@ -9,10 +9,6 @@ from acausal import Model, Scalar, der, quantity, variable
 from models import SimplePendulum
 from tests.shared import compiled
 
-LIMITED = (
-    "steps between two outputs have a limit, beyond which dearer methods take over, and in the end the run is refused"
-)
-
 
 class Duffing(Model):
     """A mass on a spring that stiffens, without damping."""
@@ -37,7 +33,6 @@ def steps_and_energy(model: type[Model], stop: float, outputs: int) -> tuple[int
     return result.stats.steps, abs(result.stats.energy_stored_change)
 
 
-@pytest.mark.xfail(strict=True, raises=AssertionError, reason=LIMITED)
 @pytest.mark.parametrize(
     ("model", "stop", "few", "many"),
     [

@@ -16,11 +16,6 @@ from acausal import Model
 from models import FlexiblePendulum, SliderCrank, SpinUp
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="below a tolerance of 1e-8 `rounding` inverts the algebraic Jacobian as a dense matrix: as the cube of its size",
-)
 @pytest.mark.parametrize(
     "model",
     [SpinUp(volumes=8), FlexiblePendulum(), SliderCrank(crank="rigid")],
