@@ -22,6 +22,7 @@ from tests.acausal.solve.events.test_friction import Block as Block
 from tests.acausal.solve.events.test_jumps_in_loops import JumpingBennett, JumpingSpatial
 from tests.benchmarks.events.scenes import Drive, SampledPendulum, StickSlip
 from tests.hard.bennett import ASKEW, Bennett
+from tests.reference import n_four_bar
 
 # Stop times within which a converged run is quick.
 SCENES: dict[str, tuple[Any, float]] = {
@@ -298,13 +299,14 @@ def test_stored_states_go_on_bit_by_bit(scene: str, version: int, tmp_path: Path
 
 
 @pytest.mark.parametrize("version", [2, 3])
-def test_the_flat_position_is_an_error(version: int, tmp_path: Path) -> None:
-    path = exported(ac.compile(models.NFourBar()), tmp_path / "a.fmu", version)
-    for kind in ("CoSimulation", "ModelExchange"):
-        with pytest.raises(Exception, match=r"[Ee]rror"):
-            simulated(path, kind, 10.0, 400)
-        before = simulated(path, kind, 0.7, 28)
-        assert before["b0_y"][-1] < 0.15
+def test_flat_positions_are_crossed_or_an_error(version: int, tmp_path: Path) -> None:
+    """Co-Simulation crosses them on the same branch; Model Exchange cannot tell the importer's method how."""
+    path = exported(ac.compile(models.NFourBar()), tmp_path / "a.fmu", version, tolerance=1e-6)
+    found = simulated(path, "CoSimulation", 10.0, 400)
+    np.testing.assert_allclose(found["b0_y"], n_four_bar.upper_end(found["time"])[1], rtol=0, atol=1e-2)
+    with pytest.raises(Exception, match=r"[Ee]rror"):
+        simulated(path, "ModelExchange", 10.0, 400)
+    assert simulated(path, "ModelExchange", 0.7, 28)["b0_y"][-1] < 0.15
 
 
 @pytest.mark.parametrize(("kind", "version"), [("CoSimulation", 2), ("ModelExchange", 3)])
