@@ -27,6 +27,7 @@ from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
+from acausal.solve.initialization.initial_modes import leave_singular_start
 from acausal.solve.initialization.initial_point import InitialPoint, initial_point
 from acausal.solve.initialization.initialize import Start
 from acausal.solve.integrate.integrator import Integrator
@@ -131,11 +132,7 @@ class _Done:
 def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, InitialPoint]:
     problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time), runs=True)
     plan = _plan(problem, task)
-    return (
-        problem,
-        plan,
-        initial_point(problem, task.start_time, plan.inside, min(plan.inside, float(plan.times[1])), task.initial),
-    )
+    return problem, plan, initial_point(problem, task.start_time, plan.inside, task.initial)
 
 
 def _plan(problem: Problem, task: Task) -> _Plan:
@@ -169,11 +166,13 @@ def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Ta
         methods=chosen(task.method, task.max_order),
     )
     counts, ends = Trace(), (task.start_time, task.stop_time)
+    skipped = plan.times[(plan.times > task.start_time) & (plan.times < at.time)].tolist()
+    passed = [leave_singular_start(problem, beginning.start, time) for time in skipped]
     for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, settings, ends, counts, beginning.start.point.constants)
         done = _Done(beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), None)
         try:
-            done.course.go(at)
+            done.course.go(at, passed)
         except KeyboardInterrupt as interrupt:
             Signals.heard()
             return replace(done, failure=interrupt)

@@ -7,7 +7,7 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, fixed, parameter, quantity, sin, structural, tanh, time
-from acausal.solve.integrate import by_core
+from acausal.solve.events import hybrid
 from components import Body, Revolute, World
 from components.rotational import Damper
 from models import Bricard, FourBar, NFourBar, SimplePendulum
@@ -209,6 +209,6 @@ class Rests(DrivenFourBar):
 def test_a_loop_that_moves_after_a_long_rest_creeps_nowhere(shaken, calls, monkeypatch):
     """However few steps a call of the core takes, as of large models."""
     if calls:
-        monkeypatch.setattr(by_core, "at_once", lambda equations: calls)
+        monkeypatch.setattr(hybrid, "at_once", lambda equations: calls)
     run = ac.simulate(Rests(shaken=shaken), stop_time=1001.0, intervals=2002)
     assert run.stats.method == "rosenbrock"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
@@ -67,15 +68,20 @@ class Course:
         self.weak = 0
         self.first: Point | None = None
 
-    def go(self, at: Point) -> None:
-        """Go from break to break; the law of each segment holds up to its end."""
+    def go(self, at: Point, passed: Sequence[Point] = ()) -> None:
+        """Go from break to break; the law of each segment holds up to its end.
+
+        Points at outputs before the first one are those of a start in a singular configuration.
+        """
         ends = [*self.breaks, float(self.times[-1])]
         held = self.agenda.between(at.time, ends[0])
         at, acts = self.agenda.at_start(at, held, self.instants)
         self.first = at = self._happen(at, acts)
         self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
-        for end in ends:
-            if at.time != self.times[0]:
+        for point in passed:
+            self.integrator.trace.add(Leg(Rows.of(point), np.zeros((1, 2)), point.constants, 0))
+        for place, end in enumerate(ends):
+            if place:
                 self.hybrid.restart()
                 now = self.agenda.between(at.time, end)
                 at, held = self._at_break(at, now, held), now

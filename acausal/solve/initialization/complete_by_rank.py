@@ -161,7 +161,7 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
 
 
 def leave_singular(problem: Problem, at: Point, within: float, regular: bool) -> Point:
-    """Continue from a singular configuration along the velocity, to a time before the first output or event.
+    """Continue from a singular configuration along the velocity, to a given time at most.
 
     A nearly singular one, which is regular, determines accelerations and the branch, and may be at rest.
     """
@@ -179,7 +179,7 @@ def leave_singular(problem: Problem, at: Point, within: float, regular: bool) ->
             "undetermined. Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
     pace = float(np.max(np.abs(x[rates]) / sizes[coordinates]))
-    span = min(LOOPS.farther / pace, (within - at.time) / 2)
+    span = min(LOOPS.farther / pace, within - at.time)
     if regular:
         return _farther(problem, at, at, span)
     later = LOOPS.away / pace

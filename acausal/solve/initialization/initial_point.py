@@ -40,15 +40,12 @@ class InitialPoint:
     seconds: float
 
 
-def initial_point(problem: Problem, time: float, later: float, within: float, initial: str) -> InitialPoint:
-    """Return the initial point, see `start`, or that of the last run of the model if all numbers are the same.
-
-    A run from a singular configuration begins before the time `within`.
-    """
+def initial_point(problem: Problem, time: float, later: float, initial: str) -> InitialPoint:
+    """Return the initial point, see `start`, or that of the last run of the model if all numbers are the same."""
     if initial == "steady":  # every run shall warn of an unstable equilibrium
-        return _computed(problem, time, later, within, initial)
+        return _computed(problem, time, later, initial)
     # As bytes: 0 and -0 are equal numbers.
-    numbers = np.array([problem.feedback, time, later, within, *problem.p])
+    numbers = np.array([problem.feedback, time, later, *problem.p])
     return shared_point(problem.compiled, numbers.tobytes(), initial)
 
 
@@ -59,8 +56,8 @@ def forget(compiled: CompiledModel) -> None:
 
 @memoized_latest(1)
 def shared_point(compiled: CompiledModel, numbers: bytes, initial: str) -> InitialPoint:
-    """Return the initial point for the bytes of feedback, start time, first event time, first output time and parameters."""
-    (feedback, *times), p = np.split(np.frombuffer(numbers), [4])
+    """Return the initial point for the bytes of feedback, start time, first event time and parameters."""
+    (feedback, *times), p = np.split(np.frombuffer(numbers), [3])
     found = _computed(Problem(compiled, p, float(feedback), runs=True), *map(float, times), initial)
     # Runs share these arrays.
     for at in (found.start.point, found.at):
@@ -69,12 +66,12 @@ def shared_point(compiled: CompiledModel, numbers: bytes, initial: str) -> Initi
     return found
 
 
-def _computed(problem: Problem, time: float, later: float, within: float, initial: str) -> InitialPoint:
+def _computed(problem: Problem, time: float, later: float, initial: str) -> InitialPoint:
     started, made = clock.perf_counter(), memo_seconds(problem.compiled)
     begun = start(problem, time, later, initial)
     check_start(problem, begun.point)
     if initial == "steady":
         InitialEvents(problem, time, later).refuse_transient(begun.point)
-    at = leave_singular_start(problem, begun, within)
+    at = leave_singular_start(problem, begun, later)
     spectrum, building = Spectrum(problem, at), memo_seconds(problem.compiled) - made
     return InitialPoint(begun, at, spectrum, clock.perf_counter() - started - building)

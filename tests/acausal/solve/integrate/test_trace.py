@@ -105,8 +105,6 @@ def test_parts_of_a_stretch():
     whole = leg(2.0, 3.0, 4.0, 5.0, 6.0, 7.0)
     assert whole.part(1, 3).times.tolist() == [3, 4]
     assert whole.part(1, 3).energy[:, 0].tolist() == [2, 3]
-    assert whole.every(2).times.tolist() == [3, 5, 7]
-    assert whole.every(3).rows.x[:, 1].tolist() == [40, 70]
     truth = np.array([True])
     end = whole.end(Point(0.0, np.zeros(2), np.zeros(1), constants(0.0), truth))
     assert (end.time, end.x.tolist(), end.z.tolist(), end.mode) == (7.0, [7, 70], [700], truth)
