@@ -65,10 +65,12 @@ class Rescue:
     patient: int = 20_000
     looser: tuple[float, ...] = (1.0, 1e2, 1e4)
     loosest: float = 1e-4
+    # Part of an output interval within which states chosen for loops are fit: 2^-6.
+    shortest: float = 0.015
     # Output intervals with a larger tolerance in a run.
     loosened: int = 10
-    # Progress of as many steps as are allowed, relative to the run: with less, step sizes tend to 0.
-    stalled: float = 1e-6
+    # Progress of as many steps as are allowed, relative to the run: with less, the run does not lead on.
+    stalled: float = 1e-4
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,8 @@ class Calls:
     # steps; near a singular configuration of a loop they grow.
     newton: float = 0.05
     newton_in_loops: float = 0.005
+    # Steps of a slice after which the states chosen for loops are checked.
+    few: int = 8
     # Operations of the core in a slice, some hundredths of a second, for which an interrupt waits: 10 evaluations a step.
     at_once: int = 3_000_000
 

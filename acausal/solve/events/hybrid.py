@@ -22,7 +22,7 @@ from acausal.solve.integrate.stored import run_file
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
 
-SAMPLING, RESCUE = POLICY.sampling, POLICY.rescue
+SAMPLING, RESCUE, CALLS = POLICY.sampling, POLICY.rescue, POLICY.calls
 REASONS = {
     End.MANY: Kind.STEPS,
     End.SHORT: Kind.ERROR_TEST,
@@ -91,13 +91,15 @@ class Hybrid:
         self._made: tuple[Way, Run] | None = None
         self._worked, self._hasty = np.zeros(2), False
         self._steps = 0  # of a slice
+        self._led = float(times[0])  # how far steps led when their number was last exceeded
         self._rings: bool | None = None  # whether outputs cannot show vibrations, once that is asked
         self._at: Point | None = None  # where the run pauses
 
     def go(self, at: Point, end: float, weak: int) -> Passed:
         """Run one slice towards the end of a segment, after `weak` weak events."""
         way = self.integrator.way
-        if not (at is self._at and self._is_made(way)) and not self._begin(at, way, weak):
+        goes_on = at is self._at and self._is_made(way)
+        if not goes_on and not self._begin(at, way, weak):
             return Passed(None, at, [], None, weak, np.zeros(2), Refusal(Kind.UNSOLVABLE, at.time))
         run, self._at = self._run(at, way), None
         found = self._slice(run, end, way)
@@ -111,13 +113,13 @@ class Hybrid:
         constants = self.integrator.compiled.layout.constants(c)
         point = Point(run.state.time, x, z, constants, mode)
         self._at = point if back in (Back.PAUSED, Back.FULL, Back.END) else None
+        if not self.integrator.are_fit(point):
+            return self._before_unfit(at, point, goes_on, weak)
         leg = self._leg(found)
-        if leg and (fit := self.integrator.fit_rows(leg.rows, at.constants)) < len(leg.rows):
-            return self._until_worn(leg, 0 if len(found.events) else fit, at, weak)
         work = np.array([run.state.supplied, run.state.dissipated]) - self._worked
         changes = crossed if back is Back.EVENT else None
         refusal = self._refusal(run, way, point) if back is Back.DOUBT else None
-        if refusal and refusal.kind in (Kind.STEPS, Kind.STALLED) and self._may_go_on(way):
+        if refusal and refusal.kind is Kind.STEPS and self._may_go_on(way, refusal.time):
             refusal = None
         return Passed(leg, point, found.events.tolist(), changes, run.state.weak, work, refusal, self._at is not None)
 
@@ -133,11 +135,9 @@ class Hybrid:
 
     def _refusal(self, run: Run, way: Way, at: Point) -> Refusal:
         """Return why the loop came back in doubt."""
-        kind, longest = REASONS.get(run.state.why, Kind.OTHER), self._longest(way)
+        kind = REASONS.get(run.state.why, Kind.OTHER)
         if self.integrator.loops and way.method == "following" and kind in (Kind.ERROR_TEST, Kind.CORRECTOR):
             kind = Kind.FLAT  # multipliers grow without end near a singular configuration
-        if kind is Kind.STEPS and run.state.step * longest < RESCUE.stalled * (self.times[-1] - self.times[0]):
-            kind = Kind.STALLED
         return Refusal(kind, run.state.time, at)
 
     def _begin(self, at: Point, way: Way, weak: int) -> bool:
@@ -191,12 +191,19 @@ class Hybrid:
         ringing = settings.ringing(way)
         return min(most, ringing) if self._rings is None else ringing if self._rings else most
 
-    def _may_go_on(self, way: Way) -> bool:
-        """Ask for vibrations that outputs cannot show where many steps are taken; return whether more are allowed."""
-        most = self._longest(way)
+    def _may_go_on(self, way: Way, time: float) -> bool:
+        """Return whether more steps are allowed than were taken: none where vibrations are the cause that outputs cannot show.
+
+        Else as long as the steps lead on.
+        """
+        if way.max_steps is None and is_open(self.integrator, self.times):
+            return False
         if way.method == "following" and self._rings is None:
+            most = self._longest(way)
             self._rings = self.integrator.settings.may_ring(self.times)
-        return self._longest(way) > most
+            return not self._rings or self._longest(way) > most
+        before, self._led = self._led, time
+        return not (way.method == "following" and self._rings) and time - before > RESCUE.stalled * np.ptp(self.times)
 
     def _leg(self, found: Recorded) -> Leg | None:
         """Return the recorded rows as a leg of the trace."""
@@ -206,12 +213,15 @@ class Hybrid:
         work, self._worked = found.work - self._worked, found.work[-1]
         return Leg(Rows(found.times, found.x, found.z, found.c), work, constants, 0)
 
-    def _until_worn(self, leg: Leg, fit: int, at: Point, weak: int) -> Passed:
-        """Keep the rows of a slice, one without events, at which the states chosen for closed loops are fit."""
-        self._at = None
-        kept = leg.part(0, fit) if fit else None
-        refusal = None if kept else Refusal(Kind.WORN, at.time)
-        return Passed(kept, kept.end(at) if kept else at, [], None, weak, np.zeros(2), refusal)
+    def _before_unfit(self, at: Point, reached: Point, goes_on: bool, weak: int) -> Passed:
+        """Go back to the begin of a slice at whose end the states chosen for loops are unfit, to choose others."""
+        self._at, refusal = None, None
+        if not goes_on:
+            least = RESCUE.shortest * float(np.max(np.diff(self.times)))
+            if self.integrator.settings.constraints != "auto" and reached.time - at.time > least:
+                return self.go(at, float(at.time + reached.time) / 2, weak)
+            refusal = Refusal(Kind.WORN, at.time)
+        return Passed(None, at, [], None, weak, np.zeros(2), refusal)
 
     def _tell_of_haste(self, time: float, hasty: bool) -> None:
         """Warn once where samples may miss a change of a condition."""
@@ -233,7 +243,9 @@ class Hybrid:
             sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched)
             room = min(SAMPLING.rows, 4 + SAMPLING.numbers // sum(sizes[:3]))
             self._made = way, Run(content, sizes, room)
-            self._steps = at_once(core_equations(c, False, way.moves))
+            self._steps = (
+                at_once(core_equations(c, False, way.moves)) if way.moves or not integrator.loops else CALLS.few
+            )
         assert self._made is not None
         return self._made[1]
 

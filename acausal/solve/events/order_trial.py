@@ -48,7 +48,7 @@ class OrderTrial:
             return False
         first, head = int(np.searchsorted(self.times, at.time, "right")), max(1, n // ORDER.heads)
         if self._waited:
-            self._choose(at, np.append(at.time, self.times[first : first + head]))
+            self._choose(at, np.append(at.time, self.times[first : first + head + 1]))
         # What vibrates at a start may be damped soon.
         most = (
             patience(integrator, self.times)

@@ -176,7 +176,7 @@ def _initial_mode(problem: Problem, at: Point, doubtful: np.ndarray, head: np.nd
 
 
 def leave_singular_start(problem: Problem, start: Start, within: float) -> Point:
-    """Return a point beyond a singular start, at which equations do not determine the motion, at a time at most; else the start."""
+    """Return a point beyond a singular start, whose equations do not determine the motion, at a time at most; else the start."""
     singular = start.redundancy.singular
     if not singular and smallest_singular_value(problem, start.point) > POLICY.loops.flat:
         return start.point

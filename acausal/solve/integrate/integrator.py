@@ -132,12 +132,11 @@ class Integrator:
             at, constants=partitioned(self.problem, at) if fits else choose_projection(self.problem, at, moves=moves)
         )
 
-    def fit_rows(self, rows: Rows, constants: Constants) -> int:
-        """Return the number of rows before the first at which the chosen states are unfit."""
-        if not self.loops or constants.moves:
-            return len(rows)
-        worn = projection_cosine(self.problem, rows, constants) < least_cosine(self.problem)
-        return int(np.argmax(worn)) if worn.any() else len(rows)
+    def are_fit(self, at: Point) -> bool:
+        """Return whether the states chosen for loops are fit at a point."""
+        if not self.loops or at.constants.moves:
+            return True
+        return bool(projection_cosine(self.problem, Rows.of(at), at.constants)[0] >= least_cosine(self.problem))
 
     def report(self, time: float) -> None:
         """Report the progress."""

@@ -9,6 +9,7 @@ from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, Way, next_way, rescue_ways
 
 RESCUE = POLICY.rescue
+ENDS = (Kind.UNSOLVABLE, Kind.CORRECTOR, Kind.OTHER)
 
 
 class Rescue:
@@ -34,6 +35,7 @@ class Rescue:
         self.integrator, self.times, self.until = integrator, times, np.inf
         self._ways, self._before = list[Way](), integrator.way
         self._refusals = list[Refusal]()
+        self._ended = False  # the solution of the algebraic equations, as far as a method tells
 
     def go_on(self, refusal: Refusal, end: float) -> None:
         """Choose the way to go on after a refusal.
@@ -44,13 +46,15 @@ class Rescue:
             If there is none.
         """
         integrator = self.integrator
+        self._ended = self._ended or (refusal.kind in ENDS and not integrator.loops)
         rescues = integrator.settings.rescues(self.times, integrator.loops)
         if not self._refusals:
             if following := next_way(integrator.way, refusal, rescues):
                 integrator.take(following, refusal)
                 return
             self._before = integrator.way
-            if len(integrator.trace.loosened) < RESCUE.loosened:
+            # Beyond the end of a solution a larger tolerance would find another one.
+            if len(integrator.trace.loosened) < RESCUE.loosened and not self._ended:
                 self._ways = rescue_ways(integrator.way, rescues)
             after = np.searchsorted(self.times, refusal.time, "right")
             self.until = min(end, float(self.times[min(after, len(self.times) - 1)]))

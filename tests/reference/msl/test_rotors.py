@@ -125,7 +125,7 @@ def test_gear_constraint_3():
     speed = "gear.actuated_revolute_b.w"
     joint = {f"gearConstraint.actuatedRevolute_b.{v}": f"gear.actuated_revolute_b.{v}" for v in ("phi", "w")}
     result = compare(ROTOR + "GearConstraint3", MovingGear(), joint, tolerance=3e-3, run=1e-11)
-    other = ac.simulate(MovingGear(), stop_time=result.time[-1], intervals=2000, tolerance=1e-11, method="idas")
+    other = ac.simulate(MovingGear(), stop_time=result.time[-1], intervals=2000, tolerance=1e-12, method="idas")
     np.testing.assert_allclose(result[speed], other[speed], atol=1e-6 * np.ptp(other[speed]))
 
 

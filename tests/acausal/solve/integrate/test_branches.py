@@ -150,7 +150,9 @@ def test_a_run_without_states_ends_there_and_keeps_what_it_found():
         def equations(self):
             yield sin(self.z) == time
 
-    with pytest.raises(ac.SimulationError, match=r"stopped at t = 1\.02 s: .*no solution[^$]*test_branches") as caught:
+    with pytest.raises(
+        ac.SimulationError, match=r"stopped at t = (0\.99\d*|1\.\d*) s: .*no solution[^$]*test_branches"
+    ) as caught:
         ac.simulate(Alone(), stop_time=1.5, intervals=50)
     found = caught.value.result
     assert found.time[-1] == pytest.approx(0.99)
