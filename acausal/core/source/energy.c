@@ -6,7 +6,7 @@
 #define FEWEST 2      /* panels of a part of a step, in each of which a rule of order 6 holds; then twice as many */
 #define MOST 16384    /* where a motion is simple, a step may have thousands of turns */
 #define BATCH 8       /* panels that are evaluated at once */
-#define CAUTION 10    /* times the error that is expected */
+#define CAUTION 300   /* times the error that is expected */
 
 /* The same where the equations have no unique solution within a short step: powers are taken from its ends. */
 static int32_t add_between_ends(ac_instance *i, double from, double to) {

@@ -9,7 +9,7 @@ from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, Way, next_way, rescue_ways
 
 RESCUE = POLICY.rescue
-ENDS = (Kind.UNSOLVABLE, Kind.CORRECTOR, Kind.OTHER)
+ENDS = (Kind.UNSOLVABLE, Kind.CORRECTOR)
 
 
 class Rescue:
