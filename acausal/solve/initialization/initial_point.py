@@ -57,8 +57,8 @@ def forget(compiled: CompiledModel) -> None:
 @memoized_latest(1)
 def shared_point(compiled: CompiledModel, numbers: bytes, initial: str) -> InitialPoint:
     """Return the initial point for the bytes of feedback, start time, first event time and parameters."""
-    (feedback, *times), p = np.split(np.frombuffer(numbers), [3])
-    found = _computed(Problem(compiled, p, float(feedback), runs=True), *map(float, times), initial)
+    (feedback, time, later), p = np.split(np.frombuffer(numbers), [3])
+    found = _computed(Problem(compiled, p, float(feedback), runs=True), float(time), float(later), initial)
     # Runs share these arrays.
     for at in (found.start.point, found.at):
         for array in (at.x, at.z, at.mode):
