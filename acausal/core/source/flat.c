@@ -6,10 +6,6 @@
 
 #define FLAT 1e-3      /* smallest singular value of the constraints over their sizes: nearer, errors choose the way */
 #define INSIDE 0.9     /* of that at the ends of a step: a larger least value is at one of them */
-#define WORN 0.03      /* the same where the equations cannot be solved any more */
-
-/* Whether the present position is flat, as far as can be told where the equations have no solution. */
-int ac_is_flat(ac_instance *i) { return ac_sharpness(i) <= WORN; }
 
 /* Whether loops pass a flat position in a step whose ends have two least singular values, and where, as a part of it: the least value is
    looked for by golden sections. `at` stands at a part of the step. */

@@ -244,6 +244,5 @@ double ac_sharpness(ac_instance *i);
 int ac_is_unfit(ac_instance *i);
 void ac_keep(ac_instance *i);
 int32_t ac_flat(ac_instance *i, ac_part_of_step *at, const double ends[2], double *where);
-int ac_is_flat(ac_instance *i);
 
 #endif
