@@ -61,7 +61,7 @@ class EquationsData(Structure):
 
 
 class RequestData(Structure):
-    """What the library takes as the request for an integration, see `core.h`."""
+    """What the library takes as the request for an integration, see `stepper.h`."""
 
     _fields_ = (
         ("tolerance", c_double),
@@ -83,14 +83,13 @@ class RequestData(Structure):
 
 
 class Progress(Structure):
-    """Counts of an integration, written outputs, kept steps, the time that was reached, and what equations left, see `core.h`."""
+    """Counts of an integration, written outputs, kept steps, and the time that was reached, see `stepper.h`."""
 
     _fields_ = (
         *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
         ("written", c_int32),
         ("kept", c_int32),
         ("time", c_double),
-        ("left", c_double),
         ("turned", c_int64),
         ("factors", c_int64),
     )

@@ -146,21 +146,20 @@ void ac_rodas_return(ac_rodas *r, double h) {
     while (tries++ < RETURNS && returns(r) && !ac_rodas_factorise(r, h)) {}
 }
 
-/* Tell the most of the residuals after steps, over the most of the terms of its equation. */
-void ac_rodas_tell(ac_rodas *r) {
-    ac_progress *p = &r->s.progress;
-    p->left = 0;
+/* The largest residual after steps, over the largest sum of the terms of its equation. */
+static double most_left(const ac_rodas *r) {
+    double most = 0;
     for (int32_t k = 0; k < r->s.of.nz; k++) {
         const double part = r->left[k] == 0 ? 0 : r->left[k] / r->most[k];
-        if (!(part <= p->left)) p->left = isfinite(part) ? part : INFINITY;
+        if (!(part <= most)) most = isfinite(part) ? part : INFINITY;
     }
+    return most;
 }
 
 /* Whether it is in doubt after a step that the algebraic equations were followed; each doubt is told once. */
 int ac_rodas_doubts(ac_rodas *r) {
     ac_progress *p = &r->s.progress;
-    ac_rodas_tell(r);
-    if (p->left <= fmin(TOLERANCES * r->s.request.tolerance, MOST_LEFT) && !p->turned) return 0;
+    if (most_left(r) <= fmin(TOLERANCES * r->s.request.tolerance, MOST_LEFT) && !p->turned) return 0;
     memset(r->left, 0, (size_t)r->s.of.nz * sizeof *r->left);
     p->turned = r->sign = 0;
     return 1;

@@ -236,7 +236,6 @@ static int32_t advance(ac_stepper *s) {
         s->progress.refused++;
         r->pace.refused = 1;
         r->h = h * fmax(LEAST, fmin(change, SAFETY));
-        ac_rodas_tell(r);
         return AC_MORE;
     }
     ac_accept(s, last ? ac_end(s) : s->t + h, h);
@@ -246,7 +245,6 @@ static int32_t advance(ac_stepper *s) {
     r->pace.slow -= r->pace.slow > 0, r->pace.bent -= r->pace.bent > 0;
     r->pace.refused = 0;
     r->stale = 1;
-    ac_rodas_tell(r);
     return AC_DONE;
 }
 

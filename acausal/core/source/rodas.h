@@ -36,7 +36,6 @@ double ac_rodas_norm(const ac_rodas *r, const double *change);
 int ac_rodas_follows(ac_rodas *r, double h);
 int32_t ac_rodas_factorise(ac_rodas *r, double h);
 void ac_rodas_return(ac_rodas *r, double h);
-void ac_rodas_tell(ac_rodas *r);
 int ac_rodas_doubts(ac_rodas *r);
 
 #endif

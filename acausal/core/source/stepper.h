@@ -40,7 +40,6 @@ typedef struct {
     int64_t steps, refused, slopes, values, pivots;
     int32_t written, kept; /* outputs and steps */
     double time;           /* reached */
-    double left;           /* of algebraic equations between steps, the largest residual over the largest sum of its terms */
     int64_t turned;        /* how often the determinant of the matrix had another sign than at first */
     int64_t factors;
 } ac_progress;
