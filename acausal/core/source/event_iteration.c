@@ -43,15 +43,6 @@ static int holds(const ac_instance *i, int32_t k, double rate) {
     return value == 0 ? i->truth[k] > 0 : value < 0;
 }
 
-/* Save the point before a round, or go back to it. */
-static void save(ac_instance *i, int back) {
-    const ac_equations *e = &i->of->parts.model.equations;
-    const int32_t length[] = {e->nx, e->nz, e->nc, i->of->watched};
-    double *const part[] = {i->x, i->z, i->c, i->truth}, *saved = i->round;
-    for (int k = 0; k < 4; saved += length[k++]) ac_put(back ? part[k] : saved, back ? saved : part[k], length[k]);
-    if (back) ac_changed(i);
-}
-
 /* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all), and the time by which their instant
    may be off. */
 typedef struct {
@@ -125,7 +116,7 @@ static int32_t look_at_conditions(ac_instance *i, round_of *r, int first) {
         r->flips |= u->guard[k].on >= 0 && i->other[k] != i->truth[k];
     }
     if (r->flips) failed = search_mode(i, r);
-    save(i, 0);
+    ac_save(i, i->round);
     for (int32_t k = 0; k < u->watched && !failed; k++) {
         if (i->other[k] != i->truth[k]) r->leeway = fmax(r->leeway, ac_leeway(i, k));
         note(u, r, k, i->other[k] > 0, i->truth[k] > 0);
@@ -213,7 +204,7 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         found->changed = 1;
         failed = apply(i, &r, &found->states);
         /* A mode of the search may have no solution. */
-        if (failed && r.flips && i->search.cycle) save(i, 1), failed = AC_OK;
+        if (failed && r.flips && i->search.cycle) ac_restore(i, i->round), failed = AC_OK;
     }
     if (round == AC_MODES) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
     if (failed) return AC_FAILED;

@@ -197,15 +197,6 @@ static int32_t iterate(ac_instance *i, int32_t *changed) {
     return failed;
 }
 
-/* Keep what an event iteration changes, or go back to it. */
-static void keep(ac_instance *i, int back) {
-    const ac_equations *e = &i->of->parts.model.equations;
-    const int32_t watched = i->of->watched, length[] = {e->nx, e->nz, e->nc, watched, watched};
-    double *const part[] = {i->x, i->z, i->c, i->truth, i->crossed}, *kept = i->kept;
-    for (int k = 0; k < 5; kept += length[k++]) ac_put(back ? part[k] : kept, back ? kept : part[k], length[k]);
-    if (back) ac_changed(i);
-}
-
 /* Let an event happen; a run leaves to its caller what does not succeed, as it was before. */
 static int32_t act(ac_instance *i) {
     const int chatter = chatters(i);
@@ -215,12 +206,12 @@ static int32_t act(ac_instance *i) {
         return chatter ? ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.") : iterate(i, &changed);
     }
     (void)ac_know(i, AC_Z); /* where it fails, so does the iteration */
-    keep(i, 0);
+    ac_save(i, i->kept);
     if (!chatter && !iterate(i, &changed)) {
         ac_record_event(i, changed);
         return AC_OK;
     }
-    keep(i, 1);
+    ac_restore(i, i->kept);
     return AC_LEAVE;
 }
 

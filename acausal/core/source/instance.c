@@ -36,7 +36,7 @@ static size_t lay_out(ac_instance *i, double *at) {
         {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->past, u->levels ? AC_PAST * (1 + n) : 0}, {&i->dense, AC_DENSE_ROWS * n}, {&i->past_rate, u->levels ? AC_POINTS * nx : 0}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
         {&i->step_y, n}, {&i->order, 3 * n + 1}, {&i->sampled, AC_SLOTS * 3 * watched}, {&i->errors, AC_SLOTS * watched},
-        {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->round, n + nc + watched},
+        {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->round, n + nc + 2 * watched},
         {&i->continuous, 2 * (size_t)u->tape[AC_CONTINUOUS].outputs}, {&i->law_values, 5 * (size_t)u->laws}, {&i->redundant, (size_t)u->laws},
         {&i->mode, 2 * modes}, {&i->search.seen, AC_MODES * modes}, {&i->samples.time, AC_ROWS}, {&i->samples.x, AC_ROWS * nx},
         {&i->samples.z, AC_ROWS * nz}, {&i->samples.found, AC_ROWS * (2 * watched + 3)}, {&i->samples.solution, AC_ROWS * most_of(nz, moving)},
@@ -141,6 +141,20 @@ void ac_moved(ac_instance *i) { i->now.known = 0; }
 void ac_changed(ac_instance *i) {
     i->now.known = 0, i->now.integrates = 0, i->now.curved = 0, i->now.sure = 0, i->now.pasts = 0;
     i->prepared = 0;
+}
+
+static void exchange(ac_instance *i, double *saved, int back) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const int32_t watched = i->of->watched, length[] = {e->nx, e->nz, e->nc, watched, watched};
+    double *const part[] = {i->x, i->z, i->c, i->truth, i->crossed};
+    for (int k = 0; k < 5; saved += length[k++]) ac_put(back ? part[k] : saved, back ? saved : part[k], length[k]);
+}
+
+void ac_save(ac_instance *i, double *saved) { exchange(i, saved, 0); }
+
+void ac_restore(ac_instance *i, double *saved) {
+    exchange(i, saved, 1);
+    ac_changed(i);
 }
 
 /* Evaluate a tape at the present. */

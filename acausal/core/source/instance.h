@@ -166,8 +166,8 @@ struct ac_instance {
     ac_samples samples;
     double *event_y, *crossing;             /* states and algebraic unknowns at the event; indicators that change there */
     double *sampled, *errors, *row_w;       /* work of `ac_locate`; array of the row tapes */
-    double *kept;                           /* what an event iteration that fails goes back to: x, z, c, truth, crossed */
-    double *round, *continuous;             /* x, z, c, truth before a round of the event iteration; outputs of AC_CONTINUOUS, twice */
+    double *kept, *round;                   /* points before an event iteration and before a round of it, see ac_save */
+    double *continuous;                     /* outputs of AC_CONTINUOUS, twice */
     double *law_values, *redundant;         /* (laws, 5) before a decision; (laws) 1 for those that are redundant */
     ac_mode_search search;
     double *mode;                           /* that is tried: switches, discrete variables, x; then that before */
@@ -195,6 +195,9 @@ int32_t ac_fail(ac_instance *i, int32_t status, const char *text);
 void ac_restart(ac_instance *i);
 void ac_moved(ac_instance *i);
 void ac_changed(ac_instance *i);
+/* Save what an event iteration changes, and go back to that: x, z, c, truth, crossed. */
+void ac_save(ac_instance *i, double *saved);
+void ac_restore(ac_instance *i, double *saved);
 const double *ac_run(ac_instance *i, int32_t tape);             /* evaluate at the present; its array */
 int32_t ac_solve(ac_instance *i, int32_t square);               /* from the present values on */
 int32_t ac_know(ac_instance *i, int32_t what);
