@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.core_equations import core_equations
-from acausal.core import Back, Doubt, End, Run
+from acausal.core import Back, Doubt, End, Equations, Run
 from acausal.core import Rows as Recorded
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
@@ -15,8 +15,7 @@ from acausal.solve.events.instant import Instants
 from acausal.solve.initialization.initial_modes import origins_text
 from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
-from acausal.solve.integrate.methods import METHODS
-from acausal.solve.integrate.one_step import at_once, multistep_settings
+from acausal.solve.integrate.methods import METHODS, multistep_settings
 from acausal.solve.integrate.order_doubt import doubt, is_open
 from acausal.solve.integrate.stored import run_file
 from acausal.solve.integrate.trace import Leg
@@ -66,6 +65,11 @@ class Passed:
     work: np.ndarray
     refusal: Refusal | None
     goes_on: bool = False
+
+
+def at_once(equations: Equations) -> int:
+    """Return how many steps of the core take some hundredths of a second, for which an interrupt may wait."""
+    return max(1, CALLS.at_once // (equations.values.size + equations.slopes.size))
 
 
 class Hybrid:

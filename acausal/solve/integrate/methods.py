@@ -6,10 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.core import why_no_idas, why_not
+from acausal.core import Multistep, why_no_idas, why_not
 from acausal.core.sundials import REMEDY
 from acausal.errors import DeclarationError
 from acausal.policy import POLICY
+from acausal.solve.integrate.ladder import Way
+from acausal.solve.integrate.settings import Settings
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
@@ -73,6 +75,27 @@ def why_first(method: str, max_order: int | None) -> str:
     if max_order is not None:
         return "idas, whose order has a limit, as one is given"
     return "rosenbrock takes less time at equal error"
+
+
+def multistep_settings(problem: Problem, settings: Settings, way: Way, floor: np.ndarray) -> Multistep:
+    """Return the settings of IDAS; algebraic unknowns do not count in its error test.
+
+    Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular configuration of
+    a loop they are enlarged.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    settings : Settings
+        How the run is to be integrated.
+    way : Way
+        How this leg is.
+    floor : array
+        Errors that rounding causes, see `rounding`.
+    """
+    newton = CALLS.newton_in_loops if problem.compiled.constraints.size else CALLS.newton
+    return Multistep(np.maximum(settings.nominal, floor / way.tolerance), settings.order(way), newton)
 
 
 def rounding(problem: Problem, at: Point) -> np.ndarray:

@@ -1,6 +1,6 @@
-"""The one-step method: L-stable, of order 5; on the core, or CasADi's where that is missing.
+"""Sizes of states in the error test of the one-step method, which is L-stable and of order 5.
 
-Where it damps, it sees rates only as far as they change coordinates: their size in the error test is that of the
+Where it damps, the method sees rates only as far as they change coordinates: their size in the error test is that of the
 coordinate times the fastest eigenvalue that oscillates. Vibrations too small to be seen in the coordinates are then
 damped instead of followed. The largest error of any state counts there: so few of them move that a mean hides it.
 """
@@ -9,13 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal.core import Equations, Multistep
-from acausal.policy import POLICY
-from acausal.solve.integrate.ladder import Way
-from acausal.solve.integrate.settings import Settings
 from acausal.solve.problem import Problem
-
-CALLS = POLICY.calls
 
 
 def sizes(problem: Problem, nominal: np.ndarray, vibration: float) -> np.ndarray:
@@ -41,29 +35,3 @@ def are_rates(problem: Problem) -> np.ndarray:
     found = np.zeros(problem.nx, dtype=np.int32)
     found[[rate for _, rate in problem.rates]] = 1
     return found
-
-
-def multistep_settings(problem: Problem, settings: Settings, way: Way, floor: np.ndarray) -> Multistep:
-    """Return the settings of IDAS; algebraic unknowns do not count in its error test.
-
-    Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular configuration of
-    a loop they are enlarged.
-
-    Parameters
-    ----------
-    problem : Problem
-        The model.
-    settings : Settings
-        How the run is to be integrated.
-    way : Way
-        How this leg is.
-    floor : array
-        Errors that rounding causes, see `rounding`.
-    """
-    newton = CALLS.newton_in_loops if problem.compiled.constraints.size else CALLS.newton
-    return Multistep(np.maximum(settings.nominal, floor / way.tolerance), settings.order(way), newton)
-
-
-def at_once(equations: Equations) -> int:
-    """Return how many steps of the core take some hundredths of a second, for which an interrupt may wait."""
-    return max(1, CALLS.at_once // (equations.values.size + equations.slopes.size))
