@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define FEWEST 2      /* panels of a part of a step, in each of which a rule of order 6 holds; then twice as many */
+#define FEWEST 4      /* panels of a part of a step, in each of which a rule of order 6 holds; then twice as many */
 #define MOST 16384    /* where a motion is simple, a step may have thousands of turns */
 #define BATCH 8       /* panels that are evaluated at once */
 #define CAUTION 300   /* times the error that is expected */
@@ -19,10 +19,10 @@ static int32_t add_between_ends(ac_instance *i, double from, double to) {
     return failed;
 }
 
-/* Integrals of the powers over a time in so many panels, and estimates of their errors. With the cubic c_0 + c_1 t + c_2 t^2 + c_3 t^3
+/* Integrals of the powers over a time in so many panels, estimates of their errors, and the largest powers. With the cubic c_0 + c_1 t + c_2 t^2 + c_3 t^3
    through the four nodes of a panel, t from -1 to 1, a power of amplitude A has terms of about c_3^2 / (20 A) t^6 and
    c_2^3 / (90 A^2) t^6, of which the rule misses 0.03 of the panel's length. */
-static int32_t integrate(ac_instance *i, double from, double h, int32_t panels, const double *largest, double *sum, double *error) {
+static int32_t integrate(ac_instance *i, double from, double h, int32_t panels, double *largest, double *sum, double *error) {
     const double a = 1 / sqrt(5), length = h / panels;
     double weight;
     for (int j = 0; j < 2; j++) sum[j] = error[j] = 0;
@@ -34,6 +34,9 @@ static int32_t integrate(ac_instance *i, double from, double h, int32_t panels, 
         ac_sample_step(i, rows);
         const int32_t failed = ac_sample_energies(i, rows);
         if (failed) return failed;
+        for (int j = 0; j < 2; j++) {
+            for (int32_t k = 0; k < rows; k++) largest[j] = fmax(largest[j], fabs(i->samples.found[3 * k + j]));
+        }
         for (int32_t k = 0; k < some; k++) {
             for (int j = 0; j < 2; j++) {
                 const double *p = i->samples.found + 3 * k * AC_NODES + j, A = largest[j];
@@ -56,13 +59,8 @@ int32_t ac_add_work(ac_instance *i, double from, double to) {
     for (int32_t panels = FEWEST;; panels *= 2) {
         const int32_t failed = integrate(i, from, h, panels, largest, sum, error);
         if (failed) return failed;
-        const int32_t last = (panels < BATCH ? panels : BATCH) * AC_NODES;
-        int enough = panels > FEWEST;
-        for (int j = 0; j < 2; j++) {
-            for (int32_t k = 0; k < last; k++) largest[j] = fmax(largest[j], fabs(i->samples.found[3 * k + j]));
-            enough = enough && error[j] <= i->now.tolerance * largest[j] * h;
-        }
-        if (enough || panels >= MOST) break;
+        const double enough = i->now.tolerance * h;
+        if (panels >= MOST || (error[0] <= enough * largest[0] && error[1] <= enough * largest[1])) break;
     }
     for (int j = 0; j < 2; j++) i->energy[j] += sum[j];
     return AC_OK;
