@@ -169,8 +169,6 @@ class Course:
         if crossed is not None:
             self._refuse_chattering(at.time, self.instants.watched[crossed].tolist() or self.guards.watched)
             return self._jump(at, at.time, passed.work, crossed=crossed)
-        if not passed.goes_on:
-            self.integrator.trace.spend(passed.work)
         if passed.refusal:
             if passed.refusal.kind is Kind.UNDEFINED:
                 self._refuse_undefined(self.hybrid.undefined(at))

@@ -50,11 +50,9 @@ class Passed:
     weak : int
         Consecutive events with hardly any motion between them.
     work : array, shape (2,)
-        Supplied and dissipated energy in J since the last row.
+        Supplied and dissipated energy in J between the last row and an event.
     refusal : Refusal or None
         Why the loop cannot go on from there.
-    goes_on : bool
-        Whether the next slice continues this one.
     """
 
     leg: Leg | None
@@ -64,7 +62,6 @@ class Passed:
     weak: int
     work: np.ndarray
     refusal: Refusal | None
-    goes_on: bool = False
 
 
 def at_once(equations: Equations) -> int:
@@ -93,7 +90,9 @@ class Hybrid:
     def __init__(self, integrator: Integrator, instants: Instants | None, times: np.ndarray) -> None:
         self.integrator, self.instants, self.times, self.step = integrator, instants, times, 0.0
         self._made: tuple[Way, Run] | None = None
-        self._worked, self._hasty = np.zeros(2), False
+        self._worked = np.zeros(2)  # supplied and dissipated energy of the run of the core up to the last row, in J
+        self._since = np.zeros(2)  # and from there to the last point
+        self._hasty = False
         self._steps = 0  # of a slice
         self._led = float(times[0])  # how far steps led when their number was last exceeded
         self._rings: bool | None = None  # whether outputs cannot show vibrations, once that is asked
@@ -120,12 +119,13 @@ class Hybrid:
         if not self.integrator.are_fit(point):
             return self._before_unfit(at, point, goes_on, weak)
         leg = self._leg(found)
-        work = np.array([run.state.supplied, run.state.dissipated]) - self._worked
+        since = np.array([run.state.supplied, run.state.dissipated]) - self._worked
         changes = crossed if back is Back.EVENT else None
+        self._since = since if changes is None else np.zeros(2)  # an event has a row
         refusal = self._refusal(run, way, point) if back is Back.DOUBT else None
         if refusal and refusal.kind is Kind.STEPS and self._may_go_on(way, refusal.time):
             refusal = None
-        return Passed(leg, point, found.events.tolist(), changes, run.state.weak, work, refusal, self._at is not None)
+        return Passed(leg, point, found.events.tolist(), changes, run.state.weak, since, refusal)
 
     def restart(self) -> None:
         """Choose the next first step anew."""
@@ -163,7 +163,7 @@ class Hybrid:
             multistep=how,
             events=self.instants is not None,
         )
-        run.state.weak, self._worked = weak, np.zeros(2)
+        run.state.weak, self._worked = weak, -self._since
         return True
 
     def _slice(self, run: Run, end: float, way: Way) -> Recorded:
