@@ -21,7 +21,6 @@ class Instants:
     # Parts in which loops follow a jump, in nominal values, and how many there are at most: as far as joints stay on a branch.
     part: float = 0.2
     parts: int = 100
-    # Of the run: an excess that falls to 0 within that time does so now.
     # Events within that part of the run, or without any motion between them, that are chattering.
     most: int = 100
     window: float = 1e-9

@@ -28,8 +28,6 @@ REMEDIES = {
     Kind.STEPS: "The solution changes ever faster, or much faster than the outputs show: a force tends to infinity (1/r^2 "
     "at r = 0), a value grows without bound, or a part is very stiff or very light. Check the equations above, or end the "
     "run earlier, stop_time=...; if the run is only long, give more intervals=....",
-    Kind.STALLED: "A force tends to infinity (1/r^2 at r = 0), or a value grows without bound. Check the equations above, "
-    "or end the run earlier, stop_time=....",
     Kind.ROUNDING: "Give a larger one, for instance tolerance=1e-9.",
     None: "A value grows without bound, a force tends to infinity, or a function jumps. Check the equations above; write a "
     "jump as piecewise(...) or when(...).",

@@ -36,4 +36,4 @@ def integrate_aside(integrator: Integrator, at: Point, times: np.ndarray, most: 
         rows += [passed.leg.rows] if passed.leg else []
         at = passed.at
     found = Rows.joined(rows)
-    return Leg(found, np.zeros((len(found), 2)), first.constants, integrator.trace.steps)
+    return Leg(found, np.zeros((len(found), 2)), first.constants)

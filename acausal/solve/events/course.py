@@ -79,7 +79,7 @@ class Course:
         self.first = at = self._happen(at, acts)
         self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
         for point in passed:
-            self.integrator.trace.add(Leg(Rows.of(point), np.zeros((1, 2)), point.constants, 0))
+            self.integrator.trace.add(Leg(Rows.of(point), np.zeros((1, 2)), point.constants))
         for place, end in enumerate(ends):
             if place:
                 self.hybrid.restart()
@@ -195,7 +195,7 @@ class Course:
             crossed = causes.get("crossed", causes.get("due"))
             self._count(at.time, self.guards.watched if crossed is None else self.instants.watched[crossed].tolist())
         rows = Rows.of(replace(new, time=label))
-        self.integrator.trace.add(Leg(rows, (gained + stored)[None], new.constants, 0))
+        self.integrator.trace.add(Leg(rows, (gained + stored)[None], new.constants))
         return new
 
     def _settled(self, at: Point, **causes: Any) -> tuple[Point, np.ndarray, bool]:

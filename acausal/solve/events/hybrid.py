@@ -215,7 +215,7 @@ class Hybrid:
             return None
         constants = self.integrator.compiled.layout.constants(found.c[-1])
         work, self._worked = found.work - self._worked, found.work[-1]
-        return Leg(Rows(found.times, found.x, found.z, found.c), work, constants, 0)
+        return Leg(Rows(found.times, found.x, found.z, found.c), work, constants)
 
     def _before_unfit(self, at: Point, reached: Point, goes_on: bool, weak: int) -> Passed:
         """Go back to the begin of a slice at whose end the states chosen for loops are unfit, to choose others."""

@@ -40,7 +40,6 @@ class Kind(Enum):
     """Why an integrator gave up."""
 
     STEPS = "it took more steps than are allowed between two outputs"
-    STALLED = "the steps became ever shorter, until time no longer went on"
     CORRECTOR = "the equations could not be solved, however short the step"
     ERROR_TEST = "no step was short enough for the tolerance"
     ROUNDING = "the tolerance is smaller than rounding errors"
@@ -115,7 +114,7 @@ class Rescues:
 
     def wears(self, refusal: Refusal) -> bool:
         """Whether another choice of states may help."""
-        return self.loops and refusal.kind not in (Kind.STEPS, Kind.STALLED)
+        return self.loops and refusal.kind is not Kind.STEPS
 
     def is_flat(self, way: Way, refusal: Refusal) -> bool:
         """Whether a refusal is due to a flat position of a loop: near it steps of the one-step method get short.

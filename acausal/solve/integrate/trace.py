@@ -118,12 +118,11 @@ class Trace:
 
 @dataclass(frozen=True)
 class Leg:
-    """Rows of one slice; integrals of power since its start, shape (n, 2); constants and steps."""
+    """Rows of one slice; integrals of power since its start, shape (n, 2); constants."""
 
     rows: Rows
     energy: np.ndarray
     constants: Constants
-    steps: int
 
     @property
     def times(self) -> np.ndarray:

@@ -75,7 +75,7 @@ ENDS = [
 ]
 
 
-WORDS = r"no solution|could not be solved|no step was short enough|ever shorter"
+WORDS = r"no solution|could not be solved|no step was short enough"
 
 
 @CORE

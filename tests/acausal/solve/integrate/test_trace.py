@@ -19,7 +19,7 @@ def leg(*times: float, switch: float = 0.0) -> Leg:
     t = np.array(times)
     energy = np.column_stack([t - 1, 0 * t])
     rows = Rows.within(t, np.column_stack([t, 10 * t]), 100 * t[:, None], constants(switch).vector)
-    return Leg(rows, energy, constants(switch), 7)
+    return Leg(rows, energy, constants(switch))
 
 
 def first() -> Point:
