@@ -3,7 +3,7 @@
 from acausal.core.curve import Curve
 from acausal.core.equations import Equations, make_equations, with_powers
 from acausal.core.laws import laws_of
-from acausal.core.library import library, why_not
+from acausal.core.library import why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
 from acausal.core.run import Back, Doubt, Multistep, Rows, Run, RunState
@@ -31,7 +31,6 @@ __all__ = [
     "Tape",
     "idas",
     "laws_of",
-    "library",
     "make_equations",
     "make_square",
     "make_tape",

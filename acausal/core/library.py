@@ -1,4 +1,4 @@
-"""Find and load the library; without it set-valued laws are not decided, and all else works, slower."""
+"""Find and load the library, without which nothing is integrated."""
 
 from __future__ import annotations
 
@@ -157,12 +157,6 @@ def _installed() -> ctypes.CDLL | str:
     if found.ac_version() != version().encode():
         return f"{path.name} was built from other sources; {MEND}"
     return found
-
-
-def library() -> ctypes.CDLL | None:
-    """Return the library that runs take, or None where there is none."""
-    found = _loaded()
-    return None if isinstance(found, str) else found
 
 
 def why_not(runs: bool = True) -> str:

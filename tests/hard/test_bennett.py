@@ -12,7 +12,6 @@ import pytest
 import acausal as ac
 from acausal import connect, fixed, parts, piecewise, sin
 from acausal.compiler.constants import Constants
-from acausal.core import library
 from acausal.solve.initialization.independent_constraints import IndependentConstraints, selection
 from acausal.solve.initialization.initial_modes import start
 from acausal.solve.point import Point
@@ -23,7 +22,6 @@ from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneC
 from tests.hard.measure import within
 
 STARTS = [(0.8, False), (2.0, False), (4.0, True)]
-AUTO = "rosenbrock" if library() else "idas"
 pytestmark = pytest.mark.filterwarnings("error::acausal.AcausalWarning")
 
 
@@ -62,7 +60,7 @@ def test_bennett_moves_as_its_geometry_and_energy_say(begins: float, askew: bool
     by_idas = result.stats.method == "idas"
     within("speed, over the fastest", speed, max(bound, 1e3 * how["tolerance"]) if by_idas else bound)
     assert result.stats.choices > 1
-    assert by_idas == (AUTO == "idas" if how["method"] == "auto" else how["method"] != "rosenbrock")
+    assert by_idas == (how["method"] not in ("auto", "rosenbrock"))
     # What forces in the linkage bear depends on which are 0; no choice makes one of them large. With one: 4e4 N.
     forces = np.concatenate([np.abs(result[f"joint[{k}].frame_a.f"]).max(axis=1) for k in range(4)])
     within("force of a joint, N", float(forces.max()), 100.0)
@@ -145,10 +143,10 @@ def test_a_second_crank_changes_nothing(method: str) -> None:
     exact = ac.simulate(OneCrank(), tolerance=1e-10, **how)
     for tolerance in (1e-4, 1e-6, 1e-8):
         found = ac.simulate(TwoCranks(), method=method, tolerance=tolerance, **how)
-        used = AUTO if method == "auto" else method
+        used = "rosenbrock" if method == "auto" else method
         assert found.stats.method == used
         error = float(np.abs(found["bearing.phi"] - exact["bearing.phi"]).max())
-        within(f"crank at {tolerance:g}, tolerances", error / tolerance, 2000 if library() and used != "idas" else 2e4)
+        within(f"crank at {tolerance:g}, tolerances", error / tolerance, 2e4 if used == "idas" else 2000)
         within("cranks apart, rad", float(np.abs(found["bearing.phi"] - found["foot.phi"]).max()), 1e-9)
         across = np.eye(3) - np.outer(OneCrank.axis, OneCrank.axis)
         forces, expected = found["rocker.frame_b.f"] @ across, exact["rocker.frame_b.f"] @ across
@@ -184,8 +182,8 @@ def test_a_large_mechanism_keeps_what_is_independent() -> None:
     """What is kept of more than 100 constraints stays fit, and a choice that is not is mended."""
     compiled = ac.compile(Row())
     result = ac.simulate(compiled, stop_time=0.6, tolerance=1e-6, intervals=30, energy=True)
-    assert result.stats.method == AUTO
-    assert AUTO == "idas" or result.stats.choices == 0  # IDAS chooses states, too
+    assert result.stats.method == "rosenbrock"
+    assert result.stats.choices == 0
     assert abs(result.stats.energy_method) < 1e-3
     problem = Problem(compiled, compiled.parameter_values(None))
     at = start(problem, 0.0, 1.0, "fixed").point

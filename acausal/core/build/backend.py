@@ -50,7 +50,7 @@ def _fetched(folder: str) -> list[str]:
 
 
 def _compile() -> None:
-    """Compile the library of this platform; everything works without it, slower."""
+    """Compile the library of this platform; without it models are compiled and not integrated."""
     if os.environ.get("ACAUSAL_WITHOUT_CORE"):
         return
     with tempfile.TemporaryDirectory() as folder:

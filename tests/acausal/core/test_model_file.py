@@ -13,8 +13,9 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from acausal.core import End, StoredModel, library, sundials, why_no_idas
+from acausal.core import End, StoredModel, sundials, why_no_idas
 from acausal.core.build.compiling import CORE, own_compiler
+from acausal.core.library import loaded
 from acausal.core.model_file import VERSION, framed
 from acausal.core.tape import KINDS
 from models import SCENES
@@ -49,9 +50,7 @@ def made(tmp_path_factory):
 
 def why(content: bytes) -> int:
     """How the library answers to a file."""
-    own = library()
-    assert own
-    core, found = ctypes.CDLL(own._name), ctypes.c_int32(-1)
+    core, found = ctypes.CDLL(loaded()._name), ctypes.c_int32(-1)
     core.ac_model_read.restype = ctypes.c_void_p
     core.ac_model_read.argtypes = ctypes.c_char_p, ctypes.c_size_t, ctypes.POINTER(ctypes.c_int32)
     core.ac_model_free.argtypes = (ctypes.c_void_p,)

@@ -10,15 +10,12 @@ import pytest
 
 import acausal as ac
 from acausal import fixed
-from acausal.core import Run, library, run
+from acausal.core import Run, run
 from acausal.locks import LOCK, exclusive, unlocked
 from models import CarAxis, NFourBar
 from tests.acausal.solve.test_threads import TASKS, Pendulum, assert_same, read
 
-CORE = pytest.mark.skipif(library() is None, reason="needs the core")
 
-
-@CORE
 @pytest.mark.parametrize(
     ("model", "name", "value", "options"),
     [
@@ -70,7 +67,6 @@ def watch(monkeypatch, look):
     monkeypatch.setattr(run, "unlocked", lambda call: own(lambda: (look(), call())[1]))
 
 
-@CORE
 def test_others_may_enter_while_the_core_integrates(monkeypatch):
     seen = []
     watch(monkeypatch, lambda: seen.append(others_may_enter()))
@@ -91,7 +87,6 @@ def fail():
     raise MemoryError
 
 
-@CORE
 @pytest.mark.parametrize(("look", "error"), [(interrupt, KeyboardInterrupt), (fail, MemoryError)])
 def test_the_lock_is_held_again_whatever_happens_meanwhile(monkeypatch, look, error):
     compiled, inside = ac.compile(Pendulum(x=fixed(1.0), v=fixed(0.0))), []

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.core import Run, library
+from acausal.core import Run
 from acausal.solve import run as module
 
 SOLVER = Path(module.__file__).parent
@@ -95,7 +95,6 @@ def test_interrupted_anywhere(energy, method):
     assert kept > 1
 
 
-@pytest.mark.skipif(library() is None, reason="needs the core")
 def test_steps_of_an_interrupted_slice_are_counted(monkeypatch):
     go = Run.go
 
@@ -113,7 +112,6 @@ def test_steps_of_an_interrupted_slice_are_counted(monkeypatch):
     assert stats.integration_seconds > 0
 
 
-@pytest.mark.skipif(library() is None, reason="needs the core")
 def test_what_an_integrator_took_to_build_is_counted(monkeypatch):
     def cut(*_, **__):
         raise KeyboardInterrupt

@@ -7,11 +7,8 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, atan2, chain, cos, der, fixed, guess, parameter, sin, time, variable
-from acausal.core import library
 from components import Body, Revolute, World
 from tests.shared import pairwise
-
-CORE = pytest.mark.skipif(library() is None, reason="needs the core")
 
 
 class Implicit(Model):
@@ -78,7 +75,6 @@ ENDS = [
 WORDS = r"no solution|could not be solved|no step was short enough"
 
 
-@CORE
 @pytest.mark.parametrize(
     ("case", "method", "intervals", "tolerance"),
     pairwise(range(len(ENDS)), ["auto", "rosenbrock", "idas"], [1, 10, 400], [1e-3, 1e-6, 1e-9]),
@@ -123,7 +119,6 @@ class Growing(Implicit):
         yield der(self.x) == self.z - sin(time)
 
 
-@CORE
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-7])
 @pytest.mark.parametrize("intervals", [1, 200])
 @pytest.mark.parametrize(
@@ -170,7 +165,6 @@ class Rotor(Model):
         yield chain(self.world, self.hinge, self.body)
 
 
-@CORE
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
 @pytest.mark.parametrize("method", ["auto", "rosenbrock"])
 def test_what_is_left_of_terms_that_cancel_is_no_jump(method: str, tolerance: float) -> None:
