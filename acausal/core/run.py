@@ -42,13 +42,9 @@ class MethodData(Structure):
     """Method of a run, see `ac_run_method` and `ac_multistep` in the core."""
 
     _fields_ = (
-        ("method", c_int32),
-        ("damps", c_int32),
-        ("blind", c_int32),
-        ("tolerance", c_double),
-        ("step", c_double),
-        ("size", c_void_p),
-        ("newton", c_double),
+        *((name, c_int32) for name in ("method", "damps", "blind")),
+        *(("tolerance", c_double), ("step", c_double), ("size", c_void_p)),
+        *((name, c_double) for name in ("test_tolerance", "newton")),
         ("order", c_int32),
     )
 
@@ -87,6 +83,8 @@ class Multistep:
     ----------
     size : array, shape (nx + nz,)
         Sizes of states and algebraic unknowns in the error test and in Newton iterations.
+    tolerance : float
+        Relative tolerance of the error test.
     order : int
         Highest order.
     newton : float
@@ -94,6 +92,7 @@ class Multistep:
     """
 
     size: np.ndarray
+    tolerance: float
     order: int
     newton: float
 
@@ -201,7 +200,8 @@ class Run:
         if multistep:
             self._size = np.ascontiguousarray(multistep.size, dtype=float)  # the library keeps its address
             method = MethodData(
-                *(1, False, not events, tolerance, step, address(self._size), multistep.newton, multistep.order)
+                *(1, False, not events, tolerance, step, address(self._size)),
+                *(multistep.tolerance, multistep.newton, multistep.order),
             )
         if self._library.ac_run_begin(self._memory, byref(method), time, *map(address, given)):
             raise MemoryError

@@ -37,7 +37,7 @@ static int32_t begin(ac_instance *i, double to) {
     if (!goes_on) i->now.end = fmin(horizon, i->now.next);
     i->ends[1] = fmin(to, i->now.end), i->ends[2] = i->now.end;
     const ac_request request = {
-        .tolerance = i->now.tolerance, .first_step = goes_on ? i->now.first_step : i->now.longer, .rate = m->rate,
+        .tolerance = i->multistep.size ? i->multistep.tolerance : i->now.tolerance, .first_step = goes_on ? i->now.first_step : i->now.longer, .rate = m->rate,
         .size = i->multistep.size ? i->multistep.size : damps ? u->damped : m->size,
         .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
         .most = INT64_MAX / 4, .share = 1, .outputs = i->ends[1] < i->ends[2] ? 2 : 1, .time = i->ends, .room = 1,

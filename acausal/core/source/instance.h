@@ -121,7 +121,7 @@ typedef struct {
 /* Request of a multistep method, as of `ac_request`: size, which has to stay, is NULL for another method. */
 typedef struct {
     const double *size;
-    double newton;
+    double tolerance, newton;
     int32_t order;
 } ac_multistep;
 

@@ -94,8 +94,11 @@ def multistep_settings(problem: Problem, settings: Settings, way: Way, floor: np
     floor : array
         Errors that rounding causes, see `rounding`.
     """
-    newton = CALLS.newton_in_loops if problem.compiled.constraints.size else CALLS.newton
-    return Multistep(np.maximum(settings.nominal, floor / way.tolerance), settings.order(way), newton)
+    loops = problem.compiled.constraints.size
+    newton = CALLS.newton_in_loops if loops else CALLS.newton
+    stricter = loops and not settings.vibrates(settings.span / settings.outputs)
+    tolerance = way.tolerance * (CALLS.stricter_in_loops if stricter else 1.0)
+    return Multistep(np.maximum(settings.nominal, floor / tolerance), tolerance, settings.order(way), newton)
 
 
 def rounding(problem: Problem, at: Point) -> np.ndarray:

@@ -88,7 +88,11 @@ class Settings:
 
     def rings(self, interval: float) -> bool:
         """The same for the longest distance of outputs, in s."""
-        return len(self.methods) > 1 and self.spectrum.vibration * interval > 2 * np.pi
+        return len(self.methods) > 1 and self.vibrates(interval)
+
+    def vibrates(self, interval: float) -> bool:
+        """Whether there are vibrations that outputs at this distance, in s, cannot show."""
+        return self.spectrum.vibration * interval > 2 * np.pi
 
     def rescues(self, times: np.ndarray, loops: bool) -> Rescues:
         """What may be changed between tries of a leg with these outputs."""
