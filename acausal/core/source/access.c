@@ -9,6 +9,15 @@ enum { TIME, STATE, RATE, GIVEN, VARIABLE, INDICATOR, SETTING, NONE };
 enum { TOLERANCE, DAMPING, MOST, SETTINGS };
 
 #define HYSTERESIS 1e-3 /* of what a condition may be off: beyond it an indicator changes its sign, so that rounding does not */
+#define MOST_WEAK 100   /* events in a row with hardly any motion between are chattering */
+
+/* Sign by which an indicator counts as positive while nothing changes. */
+static double side(const ac_instance *i, int32_t guard) { return i->truth[guard] > 0 ? -1 : 1; }
+
+/* Level at which an indicator has changed in Model Exchange: one that is not positive after an event does so where it falls further. */
+static double level(const ac_instance *i, int32_t guard) {
+    return (i->now.simulates ? 0 : i->least[guard]) - HYSTERESIS * ac_width(i, guard);
+}
 
 static int32_t kind_of(const ac_instance *i, uint32_t reference, int32_t *place) {
     const ac_unit *u = i->of;
@@ -38,7 +47,7 @@ int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *
         if (failed) return failed;
         const double *from[] = {&i->now.time, i->x, i->rate, i->p, i->shown, i->guards};
         value[k] = kind != SETTING ? from[kind][place] : *setting(i, place);
-        if (kind == INDICATOR) value[k] += (i->truth[place] > 0 ? -HYSTERESIS : HYSTERESIS) * ac_width(i, place);
+        if (kind == INDICATOR) value[k] -= side(i, place) * level(i, place);
     }
     return AC_OK;
 }
@@ -159,10 +168,35 @@ int32_t ac_event(ac_instance *i, ac_happened *found) {
     return ac_happen(i, found);
 }
 
+/* Model Exchange: values of the indicators that `level` and `note_crossings` need, from an event on. */
+static int32_t follow_indicators(ac_instance *i, int fresh) {
+    const int32_t failed = i->now.simulates || !i->of->watched ? AC_OK : ac_know(i, AC_GUARD);
+    for (int32_t k = 0; k < i->of->watched && !i->now.simulates && !failed; k++) {
+        const double value = side(i, k) * i->guards[k];
+        if (fresh) i->least[k] = fmin(value, 0), i->peak[k] = value;
+        else if (value > 0) i->least[k] = 0;
+        i->peak[k] = fmax(i->peak[k], value);
+    }
+    return failed;
+}
+
+/* Model Exchange: which indicators change at an event, and whether they moved by more than their tolerance bands since the last one. */
+static int32_t note_crossings(ac_instance *i) {
+    const int32_t failed = i->now.simulates || !i->of->watched ? AC_OK : ac_know(i, AC_GUARD);
+    int32_t changes = 0, weak = 1;
+    for (int32_t k = 0; k < i->of->watched && !i->now.simulates && !failed; k++) {
+        i->crossed[k] = side(i, k) * i->guards[k] <= level(i, k);
+        if (i->crossed[k] > 0) changes = 1, weak &= i->peak[k] <= ac_width(i, k);
+    }
+    if (changes) i->now.weak = weak ? i->now.weak + 1 : 0;
+    return i->now.weak > MOST_WEAK ? ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.") : failed;
+}
+
 int32_t ac_enter_event(ac_instance *i) {
     if (i->now.phase != AC_RUNNING && i->now.phase != AC_AT_EVENT) return ac_fail(i, AC_REFUSED, "it is not running.");
+    const int32_t failed = i->now.phase == AC_RUNNING ? note_crossings(i) : AC_OK;
     i->now.phase = AC_AT_EVENT;
-    return AC_OK;
+    return failed;
 }
 
 int32_t ac_leave_event(ac_instance *i) {
@@ -173,7 +207,12 @@ int32_t ac_leave_event(ac_instance *i) {
         if (failed) return failed;
     }
     i->now.phase = AC_RUNNING;
-    return AC_OK;
+    return follow_indicators(i, 1);
+}
+
+int32_t ac_completed(ac_instance *i) {
+    const int32_t failed = follow_indicators(i, 0);
+    return failed ? failed : ac_refuse_flat(i);
 }
 
 int32_t ac_set_time(ac_instance *i, double time) {

@@ -45,7 +45,7 @@ static void between(ac_instance *i, double s) {
 }
 
 /* In Model Exchange: whether loops passed a flat position since the last point that was kept, which the present follows. */
-int32_t ac_completed(ac_instance *i) {
+int32_t ac_refuse_flat(ac_instance *i) {
     const int32_t nx = ac_states(i);
     if (!i->of->levels || !nx) return AC_OK;
     const int32_t failed = ac_know(i, AC_RATE);

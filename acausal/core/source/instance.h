@@ -246,6 +246,7 @@ void ac_add_jump(ac_instance *i, double change);
 double ac_sharpness(ac_instance *i);
 int ac_is_unfit(ac_instance *i);
 void ac_keep(ac_instance *i);
+int32_t ac_refuse_flat(ac_instance *i);                         /* Model Exchange: loops that passed a flat position since the last step */
 int32_t ac_flat(ac_instance *i, ac_part_of_step *at, const double ends[2], double *where);
 
 #endif

@@ -34,15 +34,8 @@ def test_simulate_ends(e: float) -> None:
     assert caught.value.result.time[-1] == pytest.approx(rests(e), rel=0.02)  # type: ignore[union-attr]
 
 
-FALLS_THROUGH = pytest.mark.xfail(
-    strict=True,
-    raises=pytest.fail.Exception,
-    reason="an importer that integrates itself counts no events that hardly any motion separates: the ball falls through",
-)
-
-
 @pytest.mark.parametrize("e", [0.2, 0.5, 0.8])
-@pytest.mark.parametrize("kind", ["CoSimulation", pytest.param("ModelExchange", marks=FALLS_THROUGH)])
+@pytest.mark.parametrize("kind", KINDS)
 def test_the_fmu_reports_an_error(kind: str, e: float, ball: Path) -> None:
     with pytest.raises(FMICallException):
         simulated(ball, kind, 1.2 * rests(e), start_values={"e": e})
