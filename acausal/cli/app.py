@@ -105,6 +105,12 @@ def simulate(
     max_order: Annotated[
         int | None, typer.Option(help="Limit of the order; chosen if not given.", metavar="N", show_default=False)
     ] = None,
+    max_steps: Annotated[
+        int | None, typer.Option(help="Steps after which the run ends.", metavar="N", show_default=False)
+    ] = None,
+    max_seconds: Annotated[
+        float | None, typer.Option(help="Seconds after which the run ends.", metavar="S", show_default=False)
+    ] = None,
     initial: Initial = None,
     csv: Annotated[str | None, typer.Option(help="Write time and outputs.", metavar="FILE")] = None,
     plot: Annotated[str | None, typer.Option(help="Plot the outputs.", metavar="FILE.png")] = None,
@@ -143,9 +149,10 @@ def simulate(
             "max_order": max_order,
             "initial": initial,
         }
+        limits = {"max_steps": max_steps, "max_seconds": max_seconds}
         with user_errors(cls):
             how["stop_time"] = stop_time_of(model, given, stop_time)
-            checked_task(model, given, how)
+            checked_task(model, given, how, **limits)
             compiled = ac.compile(model, parameters=given)
         # Refuse wrong names before the run.
         chosen = match(compiled.tree, variables or ())
@@ -155,7 +162,7 @@ def simulate(
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
         chosen_by = effective_settings(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
         again = chosen_by is not None and bool(adaptive(compiled.tree))
-        options = {**how, "parameters": given if again else None, "energy": True}
+        options = {**how, **limits, "parameters": given if again else None, "energy": True}
         with user_errors(cls):
             subject = model if again else compiled
             result = _rescue(lambda show: ac.simulate(subject, **options, progress=show), files, variables, quiet)

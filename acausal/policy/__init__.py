@@ -12,7 +12,7 @@ from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
 from acausal.policy.elimination import Elimination
 from acausal.policy.events import Agenda, Clock, Instants, Laws, Rests, Sampling
-from acausal.policy.integrate import Calls, Consistent, Order, Rescue, Sizes
+from acausal.policy.integrate import Calls, Consistent, Divergence, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
 
@@ -28,6 +28,7 @@ class Policy:
     switches: Switches
     order: Order
     rescue: Rescue
+    divergence: Divergence
     calls: Calls
     consistent: Consistent
     sizes: Sizes
@@ -56,6 +57,7 @@ POLICY = Policy(
     Switches(),
     Order(),
     Rescue(),
+    Divergence(),
     Calls(),
     Consistent(),
     Sizes(),

@@ -74,6 +74,18 @@ class Rescue:
 
 
 @dataclass(frozen=True)
+class Divergence:
+    """Runs whose states grow without bound."""
+
+    # Part of a run in which states show what is usual, growth over that, and how much shorter steps become: a pole on a cart
+    # with the wrong sign of feedback turns by 1e5 rad, with 200,000 steps. Machines that are still at first grow as much from
+    # rounding, but are not taken for divergent: what is below its tolerance at first does not count.
+    early: float = 0.1
+    growth: float = 1e8
+    shorter: float = 1e3
+
+
+@dataclass(frozen=True)
 class Calls:
     """Slices of an integration, and settings of IDAS."""
 

@@ -30,6 +30,8 @@ def checked_task(
     start_time: float = 0.0,
     energy: bool = False,
     progress: Progress | None = None,
+    max_steps: int | None = None,
+    max_seconds: float | None = None,
 ) -> tuple[Task, float | None]:
     """Return the task of a simulation and the requested accuracy; raise DeclarationError for invalid settings.
 
@@ -41,7 +43,7 @@ def checked_task(
         As in `simulate`.
     given : mapping of str to value
         Settings by the name of the argument, None if not given.
-    start_time, energy, progress
+    start_time, energy, progress, max_steps, max_seconds
         As in `simulate`.
     """
     how = effective_settings(model, parameters, given)
@@ -53,7 +55,9 @@ def checked_task(
         raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
     accuracy = how.pop("accuracy")
     how["tolerance"] = POLICY.defaults.tolerance if how["tolerance"] is None else how["tolerance"]
-    task = Task(start_time=start_time, energy=energy, progress=progress, **how)
+    check_limits(max_steps, max_seconds)
+    limits = {"max_steps": max_steps, "max_seconds": max_seconds}
+    task = Task(start_time=start_time, energy=energy, progress=progress, **limits, **how)
     check_intervals(task.intervals)
     _check(task, accuracy)
     for name in CHOOSE:
@@ -74,6 +78,23 @@ def check_choice(name: str, value: Any) -> None:
     """
     if value is not None and not (isinstance(value, str) and value in CHOOSE[name]):
         raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(CHOOSE[name])}.")
+
+
+def check_limits(max_steps: Any, max_seconds: Any) -> None:
+    """Raise DeclarationError if a limit of a run is not positive.
+
+    Parameters
+    ----------
+    max_steps, max_seconds : object
+        The limits; None for none.
+    """
+    whole = isinstance(max_steps, int | np.integer) and not isinstance(max_steps, bool)
+    if max_steps is not None and not (whole and max_steps >= 1):
+        raise DeclarationError(f"max_steps is {max_steps!r}; it must be a whole number of at least 1.")
+    if max_seconds is not None:
+        number = isinstance(max_seconds, int | float | np.number) and not isinstance(max_seconds, bool)
+        if not (number and 0 < max_seconds < np.inf):
+            raise DeclarationError(f"max_seconds is {max_seconds!r}; it must be a positive number.")
 
 
 def check_intervals(intervals: Any) -> None:

@@ -35,6 +35,8 @@ def simulate(
     max_order: int | None = None,
     energy: bool = False,
     progress: Progress | None = None,
+    max_steps: int | None = None,
+    max_seconds: float | None = None,
 ) -> Result:
     """Simulate a model.
 
@@ -79,6 +81,9 @@ def simulate(
     progress : callable, optional
         Called repeatedly in long runs with the fraction done and the number of steps; with `accuracy`, those of the
         current run.
+    max_steps, max_seconds : int, float, optional
+        Steps and seconds after which a run ends with SimulationError; `stats.stopped` of its result says so. With `accuracy`,
+        of each run.
 
     Returns
     -------
@@ -90,7 +95,7 @@ def simulate(
     InitializationError
         If no consistent initial values are found.
     SimulationError
-        If the integration fails, or the accuracy is not reached; its `result` holds the run so far.
+        If the integration fails, diverges or is at a limit, or the accuracy is not reached; its `result` holds the run so far.
     """
     given: dict[str, Any] = {
         "stop_time": stop_time,
@@ -102,7 +107,9 @@ def simulate(
         "constraints": constraints,
         "max_order": max_order,
     }
-    task, accuracy = checked_task(model, parameters, given, start_time=start_time, energy=energy, progress=progress)
+    task, accuracy = checked_task(
+        *(model, parameters, given, start_time, energy, progress), max_steps=max_steps, max_seconds=max_seconds
+    )
     try:
         result = _simulate(model, parameters, task, accuracy)
     except SimulationError as failure:

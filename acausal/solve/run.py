@@ -32,6 +32,7 @@ from acausal.solve.initialization.initial_point import InitialPoint, initial_poi
 from acausal.solve.initialization.initialize import Start
 from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
+from acausal.solve.integrate.limits import Limits
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
@@ -58,6 +59,8 @@ class Task:
     max_order: int | None
     energy: bool
     progress: Progress | None
+    max_steps: int | None = None
+    max_seconds: float | None = None
 
 
 # As in `start`.
@@ -165,11 +168,12 @@ def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Ta
         constraints=task.constraints,
         methods=chosen(task.method, task.max_order),
     )
-    counts, ends = Trace(), (task.start_time, task.stop_time)
+    counts, ends, started = Trace(), (task.start_time, task.stop_time), clock.perf_counter()
     skipped = plan.times[(plan.times > task.start_time) & (plan.times < at.time)].tolist()
     passed = [leave_singular_start(problem, beginning.start, time) for time in skipped]
     for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, settings, ends, counts, beginning.start.point.constants)
+        integrator.limits = Limits(problem, ends, task.tolerance, task.max_steps, task.max_seconds, started)
         done = _Done(beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), None)
         try:
             done.course.go(at, passed)
@@ -178,7 +182,9 @@ def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Ta
             return replace(done, failure=interrupt)
         except (Failure, Chattering) as failure:
             done = replace(done, failure=failure)
-            if isinstance(failure, Failure) and failure.kind is Kind.ERROR_TEST:
+            if isinstance(failure, Failure) and failure.kind is Kind.LIMIT:
+                break
+            if isinstance(failure, Failure) and failure.kind in (Kind.ERROR_TEST, Kind.DIVERGENCE):
                 # The time of an escape to infinity is known to the tolerance; rows closer to it are meaningless.
                 integrator.trace.cut(failure.time - task.tolerance * span)
         fitting = smaller_sizes(problem, integrator.trace.states(at), settings.nominal, task.tolerance, span)

@@ -11,13 +11,9 @@ from typer.testing import CliRunner
 
 from acausal.cli import app
 
-NO_OPTIONS = pytest.mark.xfail(
-    strict=True, raises=AssertionError, reason="`acausal simulate` has no options --max-steps and --max-seconds"
-)
 FILES = ("--csv", "a.csv", "--json", "a.json")
 
 
-@NO_OPTIONS
 @pytest.mark.parametrize(
     ("scene", "name", "value", "stop"),
     [
@@ -52,13 +48,11 @@ def test_what_was_computed_is_written(
     assert f"max_{name}" in written["stopped"]
 
 
-@NO_OPTIONS
 def test_a_limit_that_is_not_reached_changes_nothing() -> None:
     done = CliRunner().invoke(app, ["simulate", "simple-pendulum", "--max-steps", "100000", "--max-seconds", "600"])
     assert done.exit_code == 0, done.stderr
 
 
-@NO_OPTIONS
 @pytest.mark.parametrize("value", ["0", "-1", "many"])
 @pytest.mark.parametrize("name", ["steps", "seconds"])
 def test_a_wrong_limit_is_refused(name: str, value: str) -> None:

@@ -53,7 +53,7 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
     at = problem.point(pieces[-1].rows, -1) if reached else begun
     begins = failure.time <= begun.time
     head = f"the run {'cannot start' if begins else 'stopped'} at t = {failure.time:.6g} s:"
-    if failure.kind is None:
+    if failure.kind in (None, Kind.LIMIT, Kind.DIVERGENCE):
         return f"{head} {failure.reason.removesuffix('.')}."
     if long := _too_long(problem, begun, integrator.span[1]):
         return f"{head} {failure.reason}.\n{long}"

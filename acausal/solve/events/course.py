@@ -153,6 +153,8 @@ class Course:
 
     def _segment(self, at: Point, end: float) -> Point:
         while at.time < end:
+            if self.integrator.limits:
+                self.integrator.limits.check(at, self.integrator.trace)
             at = self._passed(self.hybrid.go(at, min(end, self.rescue.until, self.orders.until), self.weak), end)
             self.rescue.reached(at.time)
             self.orders.reached(at.time)

@@ -174,6 +174,8 @@ class Hybrid:
         def counts() -> list[int]:
             return (self._counts(run) - before).tolist()
 
+        limits = integrator.limits
+        steps = limits.left(integrator.trace, self._steps) if limits else self._steps
         with integrator.trace.counting(way.method, counts):
             found = run.go(self.times, end, steps=self._steps, longest=self._longest(way))
         integrator.consistent.evaluations += run.state.evaluations - evaluations

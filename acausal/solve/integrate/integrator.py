@@ -20,6 +20,7 @@ from acausal.solve.initialization.minimum_norm_reactions import minimum_norm_rea
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.ladder import Refusal, Way
+from acausal.solve.integrate.limits import Limits
 from acausal.solve.integrate.methods import METHODS, rounding
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Trace
@@ -57,6 +58,7 @@ class Integrator:
         self.trace = before.emptied()
         self.consistent = Consistent(problem)
         self.way = settings.way
+        self.limits: Limits | None = None
         self._floor: np.ndarray | None = None
         self._chosen: tuple[Point, bool, Point] | None = None  # the last choice: where, whether it moves, and what
 

@@ -49,6 +49,8 @@ class Kind(Enum):
     APART = "the loops came apart"
     UNSOLVABLE = "the equations have no solution there"
     UNDEFINED = "a condition has no value"
+    DIVERGENCE = "states grow without bound"
+    LIMIT = "the run is at a limit of steps or seconds"
     OTHER = "no way to go on was found"
 
 

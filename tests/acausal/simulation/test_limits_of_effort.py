@@ -14,10 +14,6 @@ from components.rotational import Torque
 from models import FourBar, SimplePendulum
 from tests.shared import compiled
 
-NO_LIMITS = pytest.mark.xfail(
-    strict=True, raises=ac.DeclarationError, reason="simulate() has no arguments max_steps and max_seconds"
-)
-
 
 class Bouncing(Model):
     """A ball that loses nothing."""
@@ -80,15 +76,14 @@ def stopped(model: type[Model], **how: Any) -> ac.Result:
     return result
 
 
-@NO_LIMITS
 @pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
-@pytest.mark.parametrize("model", [SimplePendulum, Bouncing, FourBar])
-def test_a_run_ends_at_its_limit_of_steps(model: type[Model], method: str) -> None:
+@pytest.mark.parametrize(("model", "most"), [(SimplePendulum, 200), (Bouncing, 40), (FourBar, 200)])
+def test_a_run_ends_at_its_limit_of_steps(model: type[Model], most: int, method: str) -> None:
     """Steps of all segments count; the rows so far are those of a run without a limit."""
     how: dict[str, Any] = {"stop_time": 50.0, "intervals": 500, "method": method}
-    result = stopped(model, max_steps=200, **how)
+    result = stopped(model, max_steps=most, **how)
     assert "max_steps" in result.stats.stopped
-    assert result.stats.steps <= 200
+    assert result.stats.steps <= most
     assert 0 < result.time[-1] < 50
     whole = ac.simulate(
         compiled(model), **how | {"stop_time": float(result.time[-1]), "intervals": len(result.time) - 1}
@@ -97,7 +92,6 @@ def test_a_run_ends_at_its_limit_of_steps(model: type[Model], method: str) -> No
     np.testing.assert_allclose(result[name], whole[name], atol=1e-4)
 
 
-@NO_LIMITS
 def test_a_limit_that_is_not_reached_changes_nothing() -> None:
     how: dict[str, Any] = {"stop_time": 5.0}
     plain, limited = (
@@ -108,16 +102,14 @@ def test_a_limit_that_is_not_reached_changes_nothing() -> None:
     assert limited.stats.steps == plain.stats.steps
 
 
-@NO_LIMITS
 @pytest.mark.parametrize("method", ["auto", "idas"])
 def test_a_run_ends_at_its_limit_of_seconds(method: str) -> None:
-    """It would take an hour."""
-    result = stopped(SimplePendulum, stop_time=1e8, intervals=100_000, method=method, max_seconds=0.3)
+    """It would take a minute."""
+    result = stopped(SimplePendulum, stop_time=1e6, intervals=100_000, method=method, max_seconds=0.3)
     assert "max_seconds" in result.stats.stopped
-    assert 0 < result.time[-1] < 1e8
+    assert 0 < result.time[-1] < 1e6
 
 
-@pytest.mark.xfail(strict=True, raises=AssertionError, reason="simulate() has no arguments max_steps and max_seconds")
 @pytest.mark.parametrize("name", ["max_steps", "max_seconds"])
 @pytest.mark.parametrize("value", [0, -1, float("nan"), "many"])
 def test_a_limit_that_is_none_is_refused(name: str, value: object) -> None:
@@ -126,11 +118,6 @@ def test_a_limit_that_is_none_is_refused(name: str, value: object) -> None:
     assert f"{name} is {value!r}" in str(caught.value)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="a run that diverges goes on with ever shorter steps, up to millions of them",
-)
 @pytest.mark.parametrize(("model", "gain"), [(Balanced, 50.0), (Arm, 20.0)])
 def test_a_run_that_diverges_ends_early(model: type[Model], gain: float) -> None:
     """The angle grows from 1e-6 rad by a factor of hundreds in each second, and with it the rate at which its sine turns."""
