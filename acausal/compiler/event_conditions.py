@@ -87,7 +87,7 @@ class EventConditions:
     @cached_property
     def laws(self) -> SetValuedLaws:
         """The set-valued laws of the model."""
-        return SetValuedLaws(self.reduced, self.arguments)
+        return SetValuedLaws(self.reduced)
 
     @cached_property
     def breaks(self) -> Call:

@@ -6,7 +6,7 @@ from acausal.core.laws import laws_of
 from acausal.core.library import why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
-from acausal.core.run import Back, Doubt, Multistep, Rows, Run, RunState
+from acausal.core.run import Back, Doubt, Happened, Multistep, Rows, Run, RunState
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.stepper import End, Outputs, Stepper
 from acausal.core.sundials import idas, why_no_idas
@@ -19,6 +19,7 @@ __all__ = [
     "Doubt",
     "End",
     "Equations",
+    "Happened",
     "Multistep",
     "Outputs",
     "Rows",

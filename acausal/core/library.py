@@ -130,6 +130,7 @@ FUNCTIONS = {
     "ac_redundant_laws": (None, (c_void_p, c_void_p)),
     "ac_run_begin": (c_int32, (c_void_p, c_void_p, c_double, *[c_void_p] * 5)),
     "ac_run_go": (c_int32, (c_void_p, c_void_p, c_void_p)),
+    "ac_run_happen": (c_int32, (*[c_void_p] * 5, POINTER(c_int32))),
     "ac_run_values": (None, (c_void_p,) * 6),
     "ac_run_undefined": (c_double, (c_void_p,) * 3),
 }

@@ -15,8 +15,8 @@ from acausal.locks import unlocked
 class Back(IntEnum):
     """Reason why a slice ended.
 
-    The run is at its end; the row buffer is full; the slice took its number of steps; the run is at an event whose iteration
-    failed; the loop cannot decide what happens next; or other independent constraints are to be selected.
+    The run is at its end; the row buffer is full; the slice took its steps; the iteration of an event failed; the loop cannot
+    decide what happens next; or other independent constraints are to be selected.
     """
 
     END = 0
@@ -28,14 +28,21 @@ class Back(IntEnum):
 
 
 class Doubt(IntEnum):
-    """Reasons of doubt, beside those of `End`.
+    """Reasons of doubt, beside those of `End`, and why an event iteration fails.
 
-    Closed loops are in a singular configuration, or creep towards one; algebraic unknowns jump; or a condition has no value.
+    Closed loops are in a singular configuration, or creep towards one; algebraic unknowns jump; a condition has no value;
+    conditions do not settle; what is differentiated jumps; a jump gives no finite number; closed loops do not close after it;
+    or two statements set one variable to different values.
     """
 
     SINGULAR = 16
     FOLD = 17
     UNDEFINED = 18
+    UNSETTLED = 19
+    DISCONTINUOUS = 20
+    NO_NUMBER = 21
+    APART = 22
+    CONTRADICTION = 23
 
 
 class MethodData(Structure):
@@ -122,6 +129,26 @@ class Rows:
     events: np.ndarray
 
 
+@dataclass(frozen=True, eq=False)
+class Happened:
+    """Outcome of an event iteration.
+
+    Attributes
+    ----------
+    changed, failed : bool
+        Whether anything changed, and whether the iteration failed.
+    why : int
+        Reason why it failed, see `Doubt`; 0 where the equations have no solution.
+    acts : array of bool
+        Conditions to blame where it failed, watched ones and those of time alone.
+    """
+
+    changed: bool
+    failed: bool
+    why: int
+    acts: np.ndarray
+
+
 class Run:
     """Instance of a model in the core, used by one thread at a time.
 
@@ -129,8 +156,8 @@ class Run:
     ----------
     content : bytes
         The model file.
-    sizes : (int, int, int, int)
-        Numbers of states, algebraic unknowns, constants of a segment and watched conditions.
+    sizes : (int, int, int, int, int)
+        Numbers of states, algebraic unknowns, constants of a segment, watched conditions and conditions of time alone.
     room : int
         Rows of a slice at most.
 
@@ -140,7 +167,7 @@ class Run:
         If the file is not readable.
     """
 
-    def __init__(self, content: bytes, sizes: tuple[int, int, int, int], room: int) -> None:
+    def __init__(self, content: bytes, sizes: tuple[int, int, int, int, int], room: int) -> None:
         self._library, self._sizes, self._unit, self._memory = loaded(), sizes, None, None
         why = c_int32()
         self._unit = self._library.ac_unit_read(content, len(content), byref(why))
@@ -149,7 +176,7 @@ class Run:
         self._memory = self._library.ac_instance_make(self._unit)
         if not self._memory:
             raise MemoryError
-        nx, nz, nc, _ = sizes
+        nx, nz, nc, _, _ = sizes
         self._rows = [np.empty((room, n)) for n in (1, nx, nz, nc, 2)]
         self._events, self._room, self.state = np.empty(room), room, RunState()
 
@@ -231,6 +258,23 @@ class Run:
         times, x, z, c, work = (rows[:n].copy() for rows in self._rows)
         return Rows(back, times[:, 0], x, z, c, work, self._events[:m].copy())
 
+    def happen(self, c: np.ndarray, fires: np.ndarray, crossed: np.ndarray) -> Happened:
+        """Let happen what happens where the run begins.
+
+        Parameters
+        ----------
+        c : array
+            Constants by the clock from then on.
+        fires : array of bool
+            Conditions of time alone that become true.
+        crossed : array of int
+            Watched conditions that change now: 1 where values tell how, 2 whatever the values.
+        """
+        given = [np.ascontiguousarray(a, dtype=float) for a in (c, fires, crossed)]
+        acts, why = np.zeros(sum(self._sizes[3:])), c_int32()
+        changed = self._library.ac_run_happen(self._memory, *map(address, (*given, acts)), byref(why))
+        return Happened(changed > 0, changed < 0, why.value, acts > 0)
+
     def redundant(self, laws: int) -> np.ndarray:
         """Return which of the set-valued laws are redundant at rest, in the first decision that found some."""
         found = np.zeros(laws)
@@ -244,7 +288,7 @@ class Run:
 
     def values(self) -> tuple[np.ndarray, ...]:
         """Return states, algebraic unknowns, constants, watched conditions that hold, and those that change now."""
-        nx, nz, nc, watched = self._sizes
+        nx, nz, nc, watched, _ = self._sizes
         found = [np.empty(n) for n in (nx, nz, nc, watched, watched)]
         self._library.ac_run_values(self._memory, *map(address, found))
         x, z, c, mode, crossed = found

@@ -149,7 +149,7 @@ class Content:
         """Sizes of the states with which loops follow a jump."""
         if not self.compiled.constraints.size:
             return self.problem.nominal[: self.compiled.nx]
-        return closing_scales(self.problem, self.beginning.at, np.empty(0, dtype=int))
+        return closing_scales(self.problem, self.beginning.at)
 
     @cached_property
     def _limits(self) -> list[Limit]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
 from acausal.policy.elimination import Elimination
-from acausal.policy.events import Agenda, Clock, Instants, Laws, Rests, Sampling
+from acausal.policy.events import Agenda, Clock, Instants, Rests, Sampling
 from acausal.policy.integrate import Calls, Consistent, Divergence, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
@@ -33,7 +33,6 @@ class Policy:
     consistent: Consistent
     sizes: Sizes
     instants: Instants
-    laws: Laws
     sampling: Sampling
     agenda: Agenda
     rests: Rests
@@ -62,7 +61,6 @@ POLICY = Policy(
     Consistent(),
     Sizes(),
     Instants(),
-    Laws(),
     Sampling(),
     Agenda(),
     Rests(),

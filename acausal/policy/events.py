@@ -9,37 +9,12 @@ from dataclasses import dataclass
 class Instants:
     """What happens at one time."""
 
-    # Of the run: what changes sign within that time does so now.
-    short: float = 1e-8
-    # Of the values, and of what nominal values change in them, and the time in which conditions that are searched change by
-    # theirs: a smaller jump is the error with which an event is located. By the clock there is none.
-    jump: float = 1e-5
-    # Of the terms of what must not jump: instants are known to that part of the time (`Agenda.added`), its rounding is less.
-    rounding: float = 1e-11
-    # Of the size in a run: an excess that changes less does not move.
-    moves: float = 1e-3
-    # Parts in which loops follow a jump, in nominal values, and how many there are at most: as far as joints stay on a branch.
-    part: float = 0.2
-    parts: int = 100
     # Events within that part of the run, or without any motion between them, that are chattering.
     most: int = 100
     window: float = 1e-9
     # Searched events after which a run is told that as many to its end, more than the second, takes half a minute and more.
     many: int = 200
     dear: int = 5_000
-
-
-@dataclass(frozen=True)
-class Laws:
-    """Set-valued laws at rest."""
-
-    # Response of a rate to its own force, relative to the sum of the sizes of its terms: below it is zero. In slider-cranks it is
-    # 0.05 to 0.3, and 1e-15 where a joint reverses.
-    responds: float = 1e-8
-    # Round-off of the response of a rate to other forces, relative to its terms.
-    independent: float = 1e-8
-    # Speed over its tolerance at which a law does not rest, since a jump brought it there: events are located to about 1.
-    moves: float = 100.0
 
 
 @dataclass(frozen=True)

@@ -148,7 +148,7 @@ static int32_t close_level(ac_instance *i, closing *c) {
         }
     }
     for (int32_t a = 0; a < c->m; a++) worst = fmax(worst, c->r[a] == c->r[a] ? fabs(c->r[a]) : INFINITY);
-    return worst <= CLOSED ? AC_OK : ac_fail(i, AC_FAILED, "closed loops do not close after a jump.");
+    return worst <= CLOSED ? AC_OK : ac_refuse(i, AC_APART, "closed loops do not close after a jump.");
 }
 
 /* Coordinates where the states have them, and multipliers 0: from others an iteration may come to other positions. */
@@ -184,7 +184,7 @@ static int32_t close_levels(ac_instance *i, const double *held, int32_t levels) 
 }
 
 /* Close all loops after a jump of the states that are held, from where they were: (2, nx), the second half is overwritten. The
-   jump is gone in parts; where loops do not close on the way, at once. As `follow.py`. */
+   jump is gone in parts; where loops do not close on the way, at once. */
 int32_t ac_close(ac_instance *i, const double *held, double *from) {
     const int32_t nx = ac_states(i);
     double *to = from + nx, far = 0;

@@ -55,5 +55,5 @@ int32_t ac_refuse_discontinuity(ac_instance *i, double leeway) {
     if (!at) return AC_OK;
     char text[AC_MESSAGE];
     snprintf(text, sizeof text, "what is differentiated at %s jumps by %.4g; %s.", at, jump, origin);
-    return ac_fail(i, AC_FAILED, text);
+    return ac_refuse(i, AC_DISCONTINUOUS, text);
 }

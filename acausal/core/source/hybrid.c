@@ -99,7 +99,7 @@ static int32_t advance(ac_instance *i, double *left) {
         i->counts.values += done.values - begun.values, i->counts.factors += done.factors - begun.factors;
     }
     if (!may && i->recorder && i->recorder->left < 0) return AC_PAUSE;
-    if (!may && i->recorder) i->recorder->state->why = AC_MANY;
+    if (!may) i->why = AC_MANY;
     if (!may) return ac_fail(i, AC_RETRY, "more steps are needed than the setting allows.");
     if (!done.kept) return ac_refuse(i, end, why[end]);
     memcpy(i->before, i->after, n * sizeof *i->before);
@@ -122,7 +122,7 @@ static int is_due(ac_instance *i) {
     const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, m = i->of->watched;
     const double *value = i->guards, *rate = i->guards + 2 * m;
     int due = 0;
-    if (!m || i->now.blind || (i->recorder && i->recorder->state->why == AC_UNDEFINED) || ac_indicator_rates(i)) return 0;
+    if (!m || i->now.blind || i->why == AC_UNDEFINED || ac_indicator_rates(i)) return 0;
     for (int32_t k = 0; k < m; k++) {
         const double side = i->truth[k] > 0 ? -1 : 1, falls = -side * rate[k];
         i->crossing[k] = falls > 0 && side * value[k] <= DUE * falls * i->of->span ? AC_DUE : 0;
@@ -139,7 +139,7 @@ static int32_t check(ac_instance *i) {
     const double time = i->now.time;
     double shorter = 0;
     int32_t failed = i->now.crosses ? AC_OK : ac_meet_flat(i, &shorter);
-    if (!failed && !(shorter > 0) && !i->now.crosses && (failed = ac_refuse_jump(i)) && i->recorder) i->recorder->state->why = AC_FOLD;
+    if (!failed && !(shorter > 0) && !i->now.crosses && (failed = ac_refuse_jump(i))) i->why = AC_FOLD;
     if (!failed && !(shorter > 0)) failed = ac_locate(i);
     if (!failed && is_early(i)) shorter = SHORTER * (i->now.event - i->now.from);
     if (!failed && !(shorter > 0) && i->of->levels) {
@@ -249,6 +249,7 @@ int32_t ac_go(ac_instance *i, double to, int32_t early, int32_t *event) {
             continue;
         }
         if (failed) continue;
+        if (i->recorder && i->now.time >= i->recorder->run->end) break; /* what happens there is left to the caller */
         if (early) i->now.integrates = i->now.curved = 0, *event = 1;
         else failed = act(i);
     }

@@ -31,7 +31,7 @@ typedef struct {
     double supplied, dissipated;     /* energies since it began */
     int64_t steps, refused, factors, values, evaluations, begun;
     int64_t since;                   /* steps since the last output or event */
-    int32_t rows, events, hasty, why; /* why: as of `ac_stepper_go`, or below */
+    int32_t rows, events, hasty, why; /* why: as of `ac_stepper_go` or `ac_refuse` */
     int32_t weak;                    /* events in a row with hardly any motion between */
 } ac_run_state;
 
@@ -48,14 +48,13 @@ struct ac_recorder {
    next; other independent constraints are to be selected. */
 enum { AC_RUN_END, AC_RUN_FULL, AC_RUN_PAUSED, AC_RUN_EVENT, AC_RUN_DOUBT, AC_RUN_UNFIT };
 
-/* Reasons of doubt, beside those of `ac_stepper_go`: closed loops are in a singular configuration, or creep towards one; algebraic unknowns
-   jump; a condition has no value. */
-enum { AC_SINGULAR = 16, AC_FOLD, AC_UNDEFINED };
-
 /* Take an instance to a consistent point, from which it runs; `truth`: which watched conditions hold. AC_FAILED without memory. */
 AC_PUBLIC int32_t ac_run_begin(ac_instance *i, const ac_run_method *method, double time, const double *x, const double *z, const double *p,
                                const double *c, const double *truth);
 AC_PUBLIC int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state);
+/* Let happen what happens at the present: what the clock changes, and watched conditions that change now, as of `crossed`. Returns whether
+   anything changed; where it fails -1, and why. `acts`: (watched + timed) conditions to blame. */
+AC_PUBLIC int32_t ac_run_happen(ac_instance *i, const double *c, const double *fires, const double *crossed, double *acts, int32_t *why);
 /* Values at the present: states, algebraic unknowns, constants, conditions that hold, indicators that change now. */
 AC_PUBLIC void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *crossed);
 /* The time at which a condition has no value, with states and algebraic unknowns there. */
@@ -64,7 +63,6 @@ AC_PUBLIC double ac_run_undefined(const ac_instance *i, double *x, double *z);
 /* Set-valued laws that are redundant at rest, in the first decision that found some. */
 AC_PUBLIC void ac_redundant_laws(const ac_instance *i, double *redundant);
 
-int32_t ac_refuse(ac_instance *i, int32_t why, const char *text);
 int ac_creeps(ac_instance *i, const ac_progress *done);
 int32_t ac_meet_flat(ac_instance *i, double *shorter);
 int ac_is_full(const ac_instance *i);

@@ -58,7 +58,7 @@ static int32_t undefined(ac_instance *i, int32_t r) {
     const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz;
     ac_put(i->event_y, i->samples.x + (ptrdiff_t)r * nx, nx), ac_put(i->event_y + nx, i->samples.z + (ptrdiff_t)r * nz, nz);
     i->now.time = i->now.undefined = i->samples.time[r];
-    if (i->recorder) i->recorder->state->why = AC_UNDEFINED;
+    i->why = AC_UNDEFINED;
     return ac_fail(i, AC_RETRY, "a condition has no value.");
 }
 

@@ -70,7 +70,7 @@ static void clock(ac_instance *i) {
     i->now.time = between;
     const double *w = ac_run(i, AC_TIMED);
     i->now.time = time;
-    for (int32_t k = 0; k < u->timed; k++) {
+    for (int32_t k = 0; k < u->tape[AC_TIMED].outputs; k++) {
         i->held[k] = w[u->tape[AC_TIMED].output[k]] > 0.5;
         const int32_t on = u->guard[u->watched + k].on;
         if (on >= 0) i->c[on] = i->held[k];

@@ -14,6 +14,11 @@ int32_t ac_fail(ac_instance *i, int32_t status, const char *text) {
     return status;
 }
 
+int32_t ac_refuse(ac_instance *i, int32_t why, const char *text) {
+    i->why = why;
+    return ac_fail(i, AC_FAILED, text);
+}
+
 static size_t most_of(size_t a, size_t b) { return a > b ? a : b; }
 
 /* Lay out the memory; with NULL only measure it. */
@@ -34,7 +39,7 @@ static size_t lay_out(ac_instance *i, double *at) {
         {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
         {&i->crossed, watched}, {&i->sure, n}, {&i->looks, 3 * watched}, {&i->least, watched}, {&i->width, watched},
         {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->past, u->levels ? AC_PAST * (1 + n) : 0}, {&i->dense, AC_DENSE_ROWS * n}, {&i->past_rate, u->levels ? AC_POINTS * nx : 0}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
-        {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
+        {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->acts, watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
         {&i->step_y, n}, {&i->order, 3 * n + 1}, {&i->sampled, AC_SLOTS * 3 * watched}, {&i->errors, AC_SLOTS * watched},
         {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->round, n + nc + 2 * watched},
         {&i->continuous, 2 * (size_t)u->tape[AC_CONTINUOUS].outputs}, {&i->law_values, 5 * (size_t)u->laws}, {&i->redundant, (size_t)u->laws},

@@ -145,7 +145,14 @@ typedef struct {
     double *seen;                           /* (AC_MODES, n) modes in their order */
     int32_t count, first, cycle;            /* of them; where modes begin to repeat themselves, after how many; 0 until they do */
     int32_t changes, base, *order, *chosen; /* enumeration: switches that change, and the mode of the cycle that they change */
+    int32_t cycling;                        /* switches that change in the cycle: the first ones of `order` */
 } ac_mode_search;
+
+/* What the clock changes at an instant, where the caller of a run decides that: switches from then on, and conditions (timed) that become
+   true; NULL where the file has a tape for it. */
+typedef struct {
+    const double *c, *fires;
+} ac_clock;
 
 struct ac_instance {
     const ac_unit *of;
@@ -175,6 +182,9 @@ struct ac_instance {
     ac_window window;                       /* of the integration */
     double energy[2];                       /* supplied and dissipated energy */
     struct ac_recorder *recorder;           /* of a run; NULL in Co-Simulation */
+    ac_clock clock;                         /* of an instant of a run */
+    double *acts;                           /* (watched + timed) conditions that changed in an event iteration: those to blame where it fails */
+    int32_t why;                            /* reason of the last failure */
     double *step_y, step_time;              /* a step as the integrator writes it */
     double ends[3];                         /* of the integration, with the first output or communication point between */
     int32_t going;                          /* whether the integrator is where the last step ended */
@@ -192,6 +202,8 @@ typedef void ac_part_of_step(ac_instance *i, double s);
 
 void ac_put(double *to, const double *from, int32_t count);     /* copy; NULL: nothing */
 int32_t ac_fail(ac_instance *i, int32_t status, const char *text);
+int32_t ac_refuse(ac_instance *i, int32_t why, const char *text); /* the same with AC_FAILED for one of these reasons: */
+enum { AC_SINGULAR = 16, AC_FOLD, AC_UNDEFINED, AC_UNSETTLED, AC_DISCONTINUOUS, AC_NO_NUMBER, AC_APART, AC_CONTRADICTION };
 void ac_restart(ac_instance *i);
 void ac_moved(ac_instance *i);
 void ac_changed(ac_instance *i);
@@ -229,6 +241,7 @@ int32_t ac_linearise(ac_instance *i);                           /* factors of g_
 void ac_evaluate(const ac_instance *i, const ac_tape *t, double *w); /* a tape of x, z, t, p, c at the present */
 void ac_read_laws(const ac_instance *i, const double *c, double *found); /* discrete variables of the laws, (laws, 5) */
 int32_t ac_decide_laws(ac_instance *i, const double *was);      /* laws at rest, given those variables before the event */
+int ac_laws_are_open(const ac_instance *i);                     /* whether a law at rest was never decided */
 int32_t ac_part_laws(ac_instance *i, int32_t *parted);
 void ac_begin_search(ac_instance *i, int32_t n);                /* for a mode of n numbers */
 /* Replace the mode that the values of the current one imply by the next one to try; 0 where none is left. */

@@ -45,6 +45,7 @@ static void begin_cycle(ac_mode_search *s, int32_t first) {
             for (int32_t m = first; m < s->count; m++) differs |= mode_of(s, m)[s->place[k]] != mode_of(s, first)[s->place[k]];
             if (differs == changes) s->order[found++] = s->place[k];
         }
+        if (changes) s->cycling = found;
     }
 }
 

@@ -33,12 +33,6 @@ int32_t ac_run_begin(ac_instance *i, const ac_run_method *method, double time, c
     return AC_OK;
 }
 
-/* Tell a run why it cannot go on. */
-int32_t ac_refuse(ac_instance *i, int32_t why, const char *text) {
-    if (i->recorder) i->recorder->state->why = why;
-    return ac_fail(i, AC_FAILED, text);
-}
-
 static void put_row(ac_instance *i, double time) {
     const ac_equations *e = &i->of->parts.model.equations;
     const ac_run_request *r = i->recorder->run;
@@ -82,7 +76,8 @@ int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state
     struct ac_recorder recorder = {.run = run, .state = state, .left = run->steps, .since = state->since};
     int32_t failed = AC_OK, event = 0, output = 0, end = AC_RUN_END;
     i->recorder = &recorder, i->now.stop = run->end, i->now.weak = state->weak;
-    state->rows = state->events = state->hasty = state->why = 0;
+    state->rows = state->events = state->hasty = 0;
+    i->why = 0;
     ac_hold(i);
     while (!failed && i->now.time < run->end) {
         while (output < run->outputs && run->time[output] <= i->now.time) output++;
@@ -101,11 +96,28 @@ int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state
     else if (failed) end = AC_RUN_DOUBT, ac_retreat(i);
     i->recorder = NULL;
     state->time = i->now.time, state->step = i->now.longer, state->hasty = i->now.hasty, state->weak = i->now.weak;
+    state->why = i->why;
     state->supplied = i->energy[0], state->dissipated = i->energy[1];
     state->steps = i->counts.steps, state->refused = i->counts.refused;
     state->factors = i->counts.factors, state->values = i->counts.values, state->evaluations = i->counts.evaluations;
     state->begun = i->counts.begun, state->since = recorder.since;
     return end;
+}
+
+int32_t ac_run_happen(ac_instance *i, const double *c, const double *fires, const double *crossed, double *acts, int32_t *why) {
+    const ac_unit *u = i->of;
+    const int32_t open = ac_laws_are_open(i);
+    ac_happened found = {0};
+    int32_t failed = AC_OK;
+    ac_put(i->crossed, crossed, u->watched);
+    i->clock = (ac_clock){c, fires}, i->why = 0;
+    if (open) ac_read_laws(i, i->c, i->law_values), failed = ac_decide_laws(i, i->law_values);
+    if (!failed) failed = ac_happen(i, &found);
+    if (!failed) failed = ac_know(i, AC_Z);
+    i->clock = (ac_clock){0};
+    ac_put(acts, i->acts, u->watched + u->timed);
+    *why = i->why;
+    return failed ? -1 : found.changed || open;
 }
 
 void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *crossed) {

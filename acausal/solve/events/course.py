@@ -58,7 +58,7 @@ class Course:
         problem = integrator.problem
         self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
         settings = integrator.settings
-        self.instants = Instants(problem, settings.tolerance, span, settings.nominal)
+        self.instants = Instants(problem, settings.tolerance, span, settings.nominal, settings.energy)
         self.agenda = Agenda(self.guards, problem.p, np.union1d(times, self.breaks))
         self.hybrid = Hybrid(integrator, self.instants, times)
         self.rescue, self.orders = Rescue(integrator, times), OrderTrial(integrator, times)
@@ -66,6 +66,7 @@ class Course:
         self.searched = 0  # those of them that were not passed at one go, which cost a hundred times as much
         self.recent: deque[float] = deque(maxlen=INSTANTS.most)
         self.weak = 0
+        self.crossed: np.ndarray | None = None  # conditions that change at the last row, as of `Passed`
         self.first: Point | None = None
 
     def go(self, at: Point, passed: Sequence[Point] = ()) -> None:
@@ -76,7 +77,7 @@ class Course:
         ends = [*self.breaks, float(self.times[-1])]
         held = self.agenda.between(at.time, ends[0])
         at, acts = self.agenda.at_start(at, held, self.instants)
-        self.first = at = self._happen(at, acts)
+        self.first = at = self._happen(at, fired=acts)
         self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
         for point in passed:
             self.integrator.trace.add(Leg(Rows.of(point), np.zeros((1, 2)), point.constants))
@@ -88,6 +89,8 @@ class Course:
             self._refuse_undecided(at, end)
             for rest in ends_of_rests(self.integrator, at, end, self.times):
                 at = self._segment(at, rest)
+                if self.crossed is not None:
+                    at = self._at_row(at)
                 self.hybrid.restart()
             at = self._segment(at, end)
         self._at_stop(at, held)
@@ -117,12 +120,13 @@ class Course:
         return self._at_row(at, self.agenda.fired(on, held), self.agenda.constants(at.constants, on))
 
     def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
-        """Let happen what happens at the last row; an event if discrete variables have planned this instant."""
-        planned = self.agenda.is_planned(at)
-        new = self._happen(at, fired, constants)
+        """Let happen what happens at the last row; an event if conditions change there, or discrete variables have planned it."""
+        planned, crossed = self.agenda.is_planned(at), self.crossed
+        self.crossed = None
+        new = self._happen(at, fired=fired, constants=constants, crossed=crossed)
         self.integrator.trace.put(-1, new)
         acted = new.differs(at if constants is None else replace(at, constants=constants))
-        if acted and planned:
+        if acted and (planned or crossed is not None):
             if self.events[-1:] != [at.time]:
                 self._count(at.time, self.guards.watched)
             self._refuse_chattering(at.time, self.guards.watched)
@@ -134,7 +138,7 @@ class Course:
         now, after = agenda.on(at.time, agenda.near), agenda.on(at.time + 2 * agenda.near)
         fired = agenda.fired(now, held)
         switched = bool((now != held).any() and len(at.mode))
-        if fired or switched or agenda.is_planned(at):
+        if fired or switched or self.crossed is not None or agenda.is_planned(at):
             at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.constants(at.constants, now))
         constants = agenda.constants(at.constants, after)
         if (constants.vector != at.constants.vector).any():
@@ -159,6 +163,8 @@ class Course:
             self.rescue.reached(at.time)
             self.orders.reached(at.time)
             self.integrator.report(at.time)
+            if self.crossed is not None and at.time < end:
+                at = self._at_row(at)
         return at
 
     def _passed(self, passed: Passed, end: float) -> Point:
@@ -168,7 +174,9 @@ class Course:
         self.events += passed.events
         self.recent.extend(passed.events)
         crossed, at, self.weak = passed.crossed, passed.at, passed.weak
-        if crossed is not None:
+        if passed.ends:
+            self.crossed = crossed
+        elif crossed is not None:
             self._refuse_chattering(at.time, self.instants.watched[crossed].tolist() or self.guards.watched)
             return self._jump(at, at.time, passed.work, crossed=crossed)
         if passed.refusal:
@@ -184,9 +192,9 @@ class Course:
         lost = self.instants.watched[np.isnan(self.instants.rates(at)[0])].tolist()
         raise Failure(at.time, undefined_conditions(self.integrator.problem, at, lost) or NO_VALUE)
 
-    def _happen(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
+    def _happen(self, at: Point, **causes: Any) -> Point:
         """Let everything happen at an instant that has a row already."""
-        new, gained, _ = self._settled(at, fired=fired, constants=constants)
+        new, gained, _ = self._settled(at, **causes)
         self.integrator.trace.spend(gained)
         return new
 

@@ -17,7 +17,7 @@ from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
 from acausal.solve.integrate.methods import METHODS, multistep_settings
 from acausal.solve.integrate.order_doubt import doubt, is_open
-from acausal.solve.integrate.stored import run_file
+from acausal.solve.integrate.stored import make_run
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
 
@@ -46,7 +46,9 @@ class Passed:
     events : list of float
         Times of the events in s.
     crossed : array of bool or None
-        Conditions that change at `at`, if the iteration of the event there failed.
+        Conditions that change at `at`, and are left to the caller: at the end, or where the iteration of the event failed.
+    ends : bool
+        Whether the slice is at its end, which has a row.
     weak : int
         Consecutive events with hardly any motion between them.
     work : array, shape (2,)
@@ -59,6 +61,7 @@ class Passed:
     at: Point
     events: list[float]
     crossed: np.ndarray | None
+    ends: bool
     weak: int
     work: np.ndarray
     refusal: Refusal | None
@@ -103,13 +106,13 @@ class Hybrid:
         way = self.integrator.way
         goes_on = at is self._at and self._is_made(way)
         if not goes_on and not self._begin(at, way, weak):
-            return Passed(None, at, [], None, weak, np.zeros(2), Refusal(Kind.UNSOLVABLE, at.time))
+            return Passed(None, at, [], None, False, weak, np.zeros(2), Refusal(Kind.UNSOLVABLE, at.time))
         run, self._at = self._run(at, way), None
         found = self._slice(run, end, way)
         back = found.back
         if self.instants:
-            laws = self.instants.laws
-            laws.name(run.redundant(len(laws.laws)))
+            redundant = self.instants.redundant
+            redundant.name(run.redundant(len(redundant.laws)))
             self._tell_of_haste(at.time, bool(run.state.hasty))
         x, z, c, mode, crossed = run.values()
         self.step = run.state.step
@@ -120,12 +123,13 @@ class Hybrid:
             return self._before_unfit(at, point, goes_on, weak)
         leg = self._leg(found)
         since = np.array([run.state.supplied, run.state.dissipated]) - self._worked
-        changes = crossed if back is Back.EVENT else None
+        ends = back is Back.END
+        changes = crossed if back is Back.EVENT or (ends and crossed.any()) else None
         self._since = since if changes is None else np.zeros(2)  # an event has a row
         refusal = self._refusal(run, way, point) if back is Back.DOUBT else None
         if refusal and refusal.kind is Kind.STEPS and self._may_go_on(way, refusal.time):
             refusal = None
-        return Passed(leg, point, found.events.tolist(), changes, run.state.weak, since, refusal)
+        return Passed(leg, point, found.events.tolist(), changes, ends, run.state.weak, since, refusal)
 
     def restart(self) -> None:
         """Choose the next first step anew."""
@@ -177,7 +181,7 @@ class Hybrid:
         limits = integrator.limits
         steps = limits.left(integrator.trace, self._steps) if limits else self._steps
         with integrator.trace.counting(way.method, counts):
-            found = run.go(self.times, end, steps=self._steps, longest=self._longest(way))
+            found = run.go(self.times, end, steps=steps, longest=self._longest(way))
         integrator.consistent.evaluations += run.state.evaluations - evaluations
         return found
 
@@ -227,7 +231,7 @@ class Hybrid:
             if self.integrator.settings.constraints != "auto" and reached.time - at.time > least:
                 return self.go(at, float(at.time + reached.time) / 2, weak)
             refusal = Refusal(Kind.WORN, at.time)
-        return Passed(None, at, [], None, weak, np.zeros(2), refusal)
+        return Passed(None, at, [], None, False, weak, np.zeros(2), refusal)
 
     def _tell_of_haste(self, time: float, hasty: bool) -> None:
         """Warn once where samples may miss a change of a condition."""
@@ -245,10 +249,15 @@ class Hybrid:
         if not self._is_made(way):
             integrator = self.integrator
             c, problem = integrator.compiled, integrator.problem
-            content = run_file(problem, integrator.settings, at, way)
-            sizes = c.nx, c.nz, len(at.constants.vector), len(c.guards.watched)
-            room = min(SAMPLING.rows, 4 + SAMPLING.numbers // sum(sizes[:3]))
-            self._made = way, Run(content, sizes, room)
+            own, numbers = integrator.settings, c.nx + c.nz + len(at.constants.vector)
+            run = make_run(
+                *(problem, at, own.nominal, own.span, way.tolerance),
+                energy=own.energy,
+                moves=way.moves,
+                vibration=own.spectrum.vibration if METHODS[way.method].damps else 0.0,
+                room=min(SAMPLING.rows, 4 + SAMPLING.numbers // numbers),
+            )
+            self._made = way, run
             self._steps = (
                 at_once(core_equations(c, False, way.moves)) if way.moves or not integrator.loops else CALLS.few
             )

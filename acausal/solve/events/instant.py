@@ -1,26 +1,25 @@
-"""What happens at one instant: switches flip, variables jump and algebraic unknowns follow until nothing changes."""
+"""Event iteration: what happens at one instant, until nothing changes."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NoReturn
 
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.compiler.runtime import NO_DERIVATIVE
+from acausal.core import Doubt, Happened, Run
 from acausal.errors import InitializationError
-from acausal.policy import POLICY
-from acausal.solve.events.follow import follow
-from acausal.solve.events.laws import Laws
+from acausal.solve.diagnosis.singularity import undetermined
+from acausal.solve.events.redundant_laws import RedundantLaws
 from acausal.solve.initialization.assembly import refuse_open_loops
-from acausal.solve.initialization.mode_search import MOST_TRIED, ModeSearch
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.ladder import Failure
+from acausal.solve.integrate.stored import make_run
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
-INSTANTS = POLICY.instants
-HUGE = np.finfo(float).max / 8  # sums of some of it are finite
+WHATEVER = 2  # of `crossed` in the core: a condition changes now whatever its value
 
 
 class Cycling(Exception):
@@ -42,37 +41,24 @@ class Instants:
         Relative tolerance, and length of the run in s.
     nominal : array
         Typical sizes of states and algebraic unknowns.
+    energy : bool, optional
+        Whether the run integrates powers.
     """
 
-    def __init__(self, problem: Problem, tolerance: float, span: float, nominal: np.ndarray) -> None:
-        self.problem, self.tolerance, self.span, self.nominal = problem, tolerance, span, nominal
+    def __init__(
+        self, problem: Problem, tolerance: float, span: float, nominal: np.ndarray, energy: bool = False
+    ) -> None:
+        self.problem, self.tolerance, self.span, self.nominal, self.energy = problem, tolerance, span, nominal, energy
         self.guards = problem.compiled.guards
         self.watched = np.array(self.guards.watched, dtype=int)
         self.is_switch = self.watched < self.guards.n_switches
-        self.laws = Laws(problem, tolerance, nominal)
-        self._clocked = np.array(self.guards.clocked, dtype=bool)
-
-    def width(self, at: Point) -> np.ndarray:
-        """How far each watched excess may be off by the tolerance; one of time alone as in a run of 1 s at most."""
-        here = at.x, at.z, self.problem.p, at.time, at.constants.vector
-        scale = np.nan_to_num(self.guards.scale(*here, self.nominal)[0])
-        return self.tolerance * np.where(scale > 0, scale, min(self.span, 1.0))
+        self.redundant = RedundantLaws(problem.compiled)
+        self._runs = dict[bool, Run]()
 
     def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Watched excesses and their time derivatives."""
         value, rate = self.problem.indicators(Rows.of(at))
         return value[0], rate[0]
-
-    def holds(self, at: Point, crossed: np.ndarray) -> np.ndarray:
-        """Which watched conditions hold from now on; what passes 0 just now counts as passed."""
-        value, rate = self.rates(at)
-        width = self.width(at)
-        moving = np.abs(rate) * self.span > INSTANTS.moves * width
-        rounding = POLICY.agenda.added * max(self.span, POLICY.agenda.late * abs(at.time))
-        reach = np.where(self._clocked, rounding, INSTANTS.short * self.span)
-        soon = crossed | (np.abs(value) <= np.abs(rate) * reach)
-        near = moving & (np.abs(value) <= width) & soon
-        return np.where(near, rate < 0, np.where(value == 0, at.mode, value < 0))
 
     def settle(
         self,
@@ -89,7 +75,7 @@ class Instants:
         at : Point
             Just before.
         fired : list of int
-            EventConditions whose condition becomes true by the clock.
+            Conditions that become true by the clock.
         constants : Constants
             Those that hold by the clock from now on.
         due : array of bool
@@ -101,121 +87,74 @@ class Instants:
         ------
         Cycling
             If that does not come to an end.
+        InitializationError
+            If the equations have no solution after it.
+        Failure
+            If a jump is not allowed, or gives no finite number.
         """
-        fires, changed = list(fired or []), self.laws.undecided(at.constants)
-        if changed:  # at the start: their conditions mean nothing before
-            at = self._decided(at)
-            constants = constants and replace(constants, discretes=at.constants.discretes)
-        after = constants or at.constants
-        moved, tried = list[int](), ModeSearch(range(int(np.sum(self.is_switch))))
+        if not (len(self.guards.guards) or len(self.guards.laws)):
+            return at, False
         none = np.zeros(len(self.watched), dtype=bool)
-        due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.mode
-        before = self.rates(at)[0] if due.any() else none
-        for _ in range(MOST_TRIED):
-            now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.mode
-            flips = self.is_switch & (now != at.mode)
-            fires += self.watched[~self.is_switch & now & ~at.mode].tolist()
-            if not flips.any() and not fires and after is at.constants:
-                return replace(at, mode=now), changed
-            moved = self.watched[flips].tolist() + fires
-            if flips.any():
-                now = self._wanted(tried, at, now, after.discretes)
-                fires = [] if tried.cycle else fires  # until switches are found that fit, nothing acts
-            try:
-                at = self._after(at, now, fires, after)
-            except (InitializationError, Failure):
-                if not (tried.cycle and flips.any()):
-                    raise
-            fires, changed, after = [], True, at.constants
-            if due.any():
-                due = due & (~forced | (np.abs(self.rates(at)[0] - before) <= self.width(at)))
-        raise Cycling(moved)
+        changes = np.where(none if due is None else due, WHATEVER, none if crossed is None else crossed)
+        fires = np.isin(self.guards.timed, fired or [])
+        run = self._run(at)
+        run.begin(
+            *(at.time, at.x, at.z, self.problem.p, at.constants.vector, at.mode), step=0.0, tolerance=self.tolerance
+        )
+        found = run.happen((constants or at.constants).vector, fires, changes)
+        x, z, c, mode, _ = run.values()
+        self.redundant.name(run.redundant(len(self.guards.laws)))
+        if not (found.changed or found.failed):
+            return replace(at, mode=mode), False
+        after = Point(at.time, x, z, self.problem.compiled.layout.constants(c), mode)
+        if found.failed:
+            self._refuse(found, after, run.message)
+        return after, True
 
-    def _wanted(self, tried: ModeSearch, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
-        """Return what holds next: what follows from the values, and where that repeats itself, other switches."""
-        current, found = (np.concatenate([one[self.is_switch], at.x, discretes]) for one in (at.mode, now))
-        following = tried.next(current, found)
-        if following is None:
-            raise Cycling(self.watched[self.is_switch][tried.changing].tolist())
-        if not tried.cycle:
-            return now
-        wanted = at.mode.copy()
-        wanted[self.is_switch] = following[: len(tried.switches)] > 0
-        return wanted
-
-    def _after(self, at: Point, now: np.ndarray, fires: list[int], constants: Constants) -> Point:
-        """Return the point after some conditions hold from now on and others act, with constants of the clock."""
-        changed = now != at.mode
-        flips = self.is_switch & changed
-        jumped = self._jump(at, fires, constants.switched(self.watched[flips], now[flips]))
-        self._refuse_jumps(at, jumped.constants, self._leeway(at, changed))
-        decided = self._decided(jumped, at.constants)
-        if fires and (parted := self.laws.parted(decided)) is not decided:
-            decided = self._decided(parted)
-        return replace(decided, mode=now)
-
-    def _decided(self, at: Point, before: Constants | None = None) -> Point:
-        """Return the point with set-valued laws at rest decided, and the algebraic unknowns solved for."""
-        return algebraic(self.problem, self.laws.decided(before or at.constants, at))
-
-    def _leeway(self, at: Point, changed: np.ndarray) -> float:
-        """Time in which conditions that change move as far as what they compare typically does; none where the clock acts.
-
-        The instant of a condition that is searched is known no better than what it compares. One that changes together with
-        another one may be away from its own instant: that counts in full.
-        """
-        if not (self.guards.differentiated and changed.any()):
-            return 0.0
-        here = at.x, at.z, self.problem.p, at.time, at.constants.vector
-        far = np.nan_to_num(self.guards.scale(*here, self.nominal)[0])
-        value, rate = np.nan_to_num(self.rates(at))
-        times = (far + np.abs(value) / INSTANTS.jump) / np.maximum(np.abs(rate), np.finfo(float).tiny)
-        return min(self.span, float(np.max(times[changed])))
-
-    def _refuse_jumps(self, at: Point, constants: Constants, leeway: float) -> None:
-        """Refuse that something jumps of which a derivative is in the equations."""
-        if not self.guards.differentiated:
-            return
-        here = at.x, at.z, self.problem.p, at.time, at.constants.vector
-        both = [at.constants.vector, constants.vector]
-        found = [np.array(self.guards.continuous(*here, new, self.nominal, leeway)) for new in both]
-        (before, size, terms), (after, size_after, terms_after) = np.nan_to_num(found, posinf=HUGE, neginf=-HUGE)
-        jumps = np.abs(after - before)
-        excess = jumps - INSTANTS.jump * (np.abs(before) + np.abs(after) + size + size_after)
-        excess -= INSTANTS.rounding * (terms + terms_after)
-        worst = int(np.argmax(excess))
-        if excess[worst] > 0:
-            raise Failure(
-                at.time,
-                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}; {NO_DERIVATIVE}",
+    def _run(self, at: Point) -> Run:
+        """Return the run whose equations have the projection of a point."""
+        moves = at.constants.moves is not False
+        if moves not in self._runs:
+            self._runs[moves] = make_run(
+                *(self.problem, at, self.nominal, self.span, self.tolerance), energy=self.energy, moves=moves
             )
+        return self._runs[moves]
 
-    def _jump(self, at: Point, fires: list[int], constants: Constants) -> Point:
-        """Return the point with states and discrete variables after jumps that are computed from the values before.
+    def _contradiction(self, guards: list[int]) -> str:
+        """Return the message for statements that set one variable to different values."""
+        sets = [dict(zip(self.guards.jump(k)[1], self.guards.guards[k].jumps, strict=True)) for k in guards]
+        common = sorted(set(sets[0]).intersection(*sets[1:]))
+        names = ", ".join(f"`{sets[0][place].target}`" for place in common)
+        statements = [
+            f"{self.guards.guards[k].origin}, reinit of {', '.join(f'`{jump.target}`' for jump in jumps.values())}"
+            for k, jumps in zip(guards, sets, strict=True)
+        ]
+        return (
+            f"{len(guards)} statements set {names} to different values at one instant:\n  "
+            + "\n  ".join(statements)
+            + "\nJoin them, or let the condition of one exclude that of the other"
+        )
 
-        In closed loops the other states follow, by the least change that keeps the loops closed.
-        """
-        before, discretes, jumped = self.problem.projected(at), constants.discretes.copy(), []
-        x = before.x.copy()
-        for guard in sorted(fires):  # of statements that set the same variable, the later one counts
-            call, places = self.guards.jump(guard)
-            values = call(at.x, at.z, self.problem.p, at.time, at.constants.vector)[0]
-            if not np.all(np.isfinite(values)):
+    def _refuse(self, found: Happened, at: Point, message: str) -> NoReturn:
+        """Raise the error of an iteration that failed at a point."""
+        acts = np.array([*self.watched, *self.guards.timed], dtype=int)[found.acts].tolist()
+        origins = list(dict.fromkeys(str(self.guards.guards[k].origin) for k in acts))
+        match found.why:
+            case Doubt.UNSETTLED:
+                raise Cycling(acts)
+            case Doubt.DISCONTINUOUS:
+                raise Failure(at.time, message.partition(" s: ")[2].removesuffix("."))
+            case Doubt.NO_NUMBER:
                 raise Failure(
                     at.time,
-                    f"{self.guards.guards[guard].origin}: reinit() gives no finite number; check what it divides by, and the "
-                    "arguments of sqrt, log, acos",
+                    f"{origins[0]}: reinit() gives no finite number; check what it divides by, and the arguments of sqrt, "
+                    "log, acos",
                 )
-            for (is_state, place), value in zip(places, values, strict=True):
-                (x if is_state else discretes)[place] = value
-                jumped += [place] * is_state
-        after = replace(at, x=x, constants=replace(constants, discretes=discretes))
-        if not jumped or not self.problem.compiled.constraints.size:
-            return after
-        held = np.array(jumped, dtype=int)
-        after, mismatch = follow(self.problem, before, after, held)
-        if not mismatch <= POLICY.loops.closed:
-            where = ", ".join(dict.fromkeys(str(self.guards.guards[guard].origin) for guard in fires))
-            refuse_open_loops(self.problem, after, held, where)
-        # From what coordinates were before, an iteration may come to others.
-        return self.problem.completed(after)
+            case Doubt.APART:
+                jumps = [place for k in acts for is_state, place in self.guards.jump(k)[1] if is_state]
+                refuse_open_loops(self.problem, at, np.unique(jumps), ", ".join(origins))
+            case Doubt.CONTRADICTION:
+                raise Failure(at.time, self._contradiction(acts))
+        if text := undetermined(self.problem, algebraic(self.problem, at)):
+            raise Failure(at.time, text)
+        raise InitializationError("Newton's method does not converge")

@@ -41,7 +41,6 @@ def close(
     at: Point,
     fixed: np.ndarray,
     positions: bool = False,
-    scales: np.ndarray | None = None,
     yielding: np.ndarray | None = None,
 ) -> tuple[Point, float]:
     """Satisfy the constraints with the least change of the coordinates, level by level.
@@ -56,8 +55,6 @@ def close(
         States that do not change.
     positions : bool
         True for the lowest level of each constraint alone: positions, or velocities of nonholonomic constraints.
-    scales : array, optional
-        Scales of the changes of the states, shape (nx,); `Problem.loop_scales` by default.
     yielding : array of int, optional
         Fixed states that may change a little if the loops cannot close otherwise.
 
@@ -69,7 +66,7 @@ def close(
         Largest scaled residual.
     """
     at = _with_value(problem, at, fixed)
-    mismatch, scales = 0.0, problem.loop_scales if scales is None else scales
+    mismatch = 0.0
     is_lowest = problem.compiled.constraints.is_lowest
     for depth, (rows, columns) in enumerate(levels(problem.compiled)):
         if positions and not any(is_lowest[rows]):
@@ -77,13 +74,13 @@ def close(
         rows = [row for row in rows if is_lowest[row]] if positions else rows
         free = np.setdiff1d(columns, fixed)
         own = np.intersect1d(columns, np.empty(0, int) if yielding is None else yielding)
-        if own.size and (found := _solve_yielding(problem, at, rows, free, own, depth > 0, scales)):
+        if own.size and (found := _solve_yielding(problem, at, rows, free, own, depth > 0)):
             at, left = found
         else:
-            at, left = _solve(problem, at, rows, free, depth > 0, scales)
+            at, left = _solve(problem, at, rows, free, depth > 0)
         if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.loop_scales)):
             # Near a singular configuration the error of rates is the square root of that of positions.
-            at, left = _solve(problem, at, rows, columns, depth > 0, scales)
+            at, left = _solve(problem, at, rows, columns, depth > 0)
         mismatch = max(mismatch, left)
         if left > LOOPS.closed:
             break
@@ -128,7 +125,7 @@ def _are_many(rows: list[int]) -> bool:
 
 
 def _solve_yielding(
-    problem: Problem, at: Point, rows: list[int], free: np.ndarray, soft: np.ndarray, linear: bool, scales: np.ndarray
+    problem: Problem, at: Point, rows: list[int], free: np.ndarray, soft: np.ndarray, linear: bool
 ) -> tuple[Point, float] | None:
     """Close one level near the guesses; where a small residual remains, the yielding states change as well.
 
@@ -137,13 +134,13 @@ def _solve_yielding(
     at, left
         As of `_solve`; None if a large residual remains.
     """
-    near, left = _solve(problem, at, rows, free, linear, scales, LOOPS.attempts[:1])
+    near, left = _solve(problem, at, rows, free, linear, LOOPS.attempts[:1])
     size = 1.0
     if linear and LOOPS.closed < left:  # relative to the rates that move
         u = near.x[free]
         size = float(np.max(abs(_residuals(problem, near, rows, free)(u)[1]) @ np.abs(u), initial=0.0))
     if LOOPS.closed < left <= LOOPS.taken * size:
-        near, left = _solve(problem, near, rows, np.union1d(free, soft), linear, scales, LOOPS.attempts[:1])
+        near, left = _solve(problem, near, rows, np.union1d(free, soft), linear, LOOPS.attempts[:1])
     return (near, left) if left <= LOOPS.closed else None
 
 
@@ -153,7 +150,6 @@ def _solve(
     rows: list[int],
     free: np.ndarray,
     linear: bool,
-    scales: np.ndarray,
     attempts: tuple[float, ...] = LOOPS.attempts,
 ) -> tuple[Point, float]:
     """Close one level, linear ones by a single minimum-norm step; return the largest scaled residual as well."""
@@ -161,7 +157,7 @@ def _solve(
     left = float(np.max(np.abs(evaluate(at.x[free])[0]), initial=0.0))
     if not free.size or left == 0:
         return at, left
-    best, scale = at.x[free], scales[free]
+    best, scale = at.x[free], problem.loop_scales[free]
     if linear:
         best, left = _polish(evaluate, best, scale)
     smallest = left if np.isfinite(left) else np.inf

@@ -67,7 +67,7 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
 
 
 @np.errstate(all="ignore")
-def closing_scales(problem: Problem, at: Point, fixed: np.ndarray) -> np.ndarray:
+def closing_scales(problem: Problem, at: Point) -> np.ndarray:
     """Return scales of the states for closing loops, shape (nx,): small for stiff ones, if the others suffice to close them.
 
     Parameters
@@ -76,13 +76,10 @@ def closing_scales(problem: Problem, at: Point, fixed: np.ndarray) -> np.ndarray
         The model.
     at : Point
         A consistent point.
-    fixed : array of int
-        States that do not move.
     """
     c, sizes = problem.compiled.constraints, problem.loop_scales.copy()
     rows, columns = c.entries
     J = _jacobians(problem, Rows.of(at), at.constants)[0][0] * c.counting(at.constants.closures)[rows]
-    J[np.isin(columns, fixed)] = 0.0
     stiffness = _stiffness(problem, at)[columns]
     largest = float(np.max(stiffness, initial=0.0))
     for threshold in largest * 10.0 ** -np.arange(LOOPS.decades, -1, -1):

@@ -55,8 +55,7 @@ class InitialEvents:
         if not len(before.mode):
             return
         scheduled = {k for k, _ in guards.scheduled_guards}
-        holds = self.instants.holds(before, np.zeros(len(before.mode), dtype=bool))
-        begins = holds & ~before.mode & ~self.instants.is_switch
+        begins = (self.instants.rates(before)[0] < 0) & ~before.mode & ~self.instants.is_switch
         acts = [k for k in self.instants.watched[begins].tolist() if k not in scheduled]
         if acts and not is_steady(self.problem, self._after_events(before, [])):
             raise InitializationError(

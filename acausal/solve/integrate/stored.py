@@ -1,4 +1,4 @@
-"""The model file with which the core runs a model."""
+"""Runs of the core, made of the model file."""
 
 from __future__ import annotations
 
@@ -8,15 +8,12 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_equations
 from acausal.compiler.memo import memoized
 from acausal.compiler.runtime import INNER, NOTHING, VERSION, Runtime
-from acausal.core import StoredModel
+from acausal.core import Run, StoredModel
 from acausal.core.model_file import floats, framed, ints
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
 from acausal.solve.initialization.independent_constraints import closure_of
-from acausal.solve.integrate.ladder import Way
-from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import are_rates, sizes
-from acausal.solve.integrate.settings import Settings
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
 
@@ -59,35 +56,56 @@ def _sections(compiled: CompiledModel, energies: bool, moves: bool) -> dict[str,
     nothing = runtime.tape(NOTHING)
     return {
         **runtime.sections,
-        "layout": runtime.layout(counts, 0, 0, instants.numel(), 0),
+        "layout": runtime.layout(counts, 0, len(guards.timed), instants.numel(), 0),
         "roles": ints(np.full(r.p.numel(), INNER)),
         "starts": ints(np.full(compiled.nx, -1)),
         "inputs": b"",
         **runtime.square("begin", NOTHING, 3, []),
         **dict.fromkeys(("head", "shown", "timed", "limits"), nothing),
         "instants": runtime.tape(instants if instants.numel() else NOTHING),
-        "rules": runtime.rules([]),
+        "rules": runtime.rules(guards.timed),
         "bounds": b"",
         "limited": b"",
     }
 
 
-def run_file(problem: Problem, settings: Settings, at: Point, way: Way) -> bytes:
-    """Return the model file of a run.
+def make_run(
+    problem: Problem,
+    at: Point,
+    nominal: np.ndarray,
+    span: float,
+    tolerance: float,
+    *,
+    energy: bool = False,
+    moves: bool = True,
+    vibration: float = 0.0,
+    room: int = 1,
+) -> Run:
+    """Make a run of the core.
 
     Parameters
     ----------
     problem : Problem
         The model.
-    settings : Settings
-        How it is to be integrated.
     at : Point
         Where it is, consistent.
-    way : Way
-        Its tolerance and projection.
+    nominal : array
+        Sizes of states and algebraic unknowns.
+    span : float
+        Length of the whole run in s.
+    tolerance : float
+        Relative tolerance.
+    energy : bool, optional
+        Whether to integrate the powers as well.
+    moves : bool, optional
+        Whether the projection follows the constraint Jacobian.
+    vibration : float, optional
+        Angular frequency in rad/s from which on vibrations are damped; 0 for none.
+    room : int, optional
+        Rows of a slice at most.
     """
-    compiled, nominal = problem.compiled, settings.nominal
-    runtime, free = _runtime(compiled, settings.energy, way.moves), np.empty(0, dtype=int)
+    compiled = problem.compiled
+    runtime = _runtime(compiled, energy, moves)
     start = StoredModel(
         runtime.equations,
         at.time,
@@ -96,13 +114,15 @@ def run_file(problem: Problem, settings: Settings, at: Point, way: Way) -> bytes
         rate=are_rates(problem),
         names=compiled.states,
     )
-    follows = closing_scales(problem, at, free) if compiled.constraints.size else problem.nominal[: compiled.nx]
+    follows = closing_scales(problem, at) if compiled.constraints.size else problem.nominal[: compiled.nx]
     sections = {
-        **_sections(compiled, settings.energy, way.moves),
+        **_sections(compiled, energy, moves),
         **start.start,
-        "damped": floats(sizes(problem, nominal, settings.spectrum.vibration if METHODS[way.method].damps else 0.0)),
-        "nominal": floats([settings.span, way.tolerance, *nominal, *problem.loop_scales, *follows]),
+        "damped": floats(sizes(problem, nominal, vibration)),
+        "nominal": floats([span, tolerance, *nominal, *problem.loop_scales, *follows]),
         "natural": floats(nominal[compiled.nx :]),
         "token": b"run\0",
     }
-    return framed(VERSION, sections)
+    guards = compiled.guards
+    numbers = compiled.nx, compiled.nz, len(at.constants.vector), len(guards.watched), len(guards.timed)
+    return Run(framed(VERSION, sections), numbers, room)

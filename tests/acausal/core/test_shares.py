@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from acausal.core.shares import shares
+from tests.acausal.core.shares import shares
 
 
 def problem(seed: int, n: int, rank: int):

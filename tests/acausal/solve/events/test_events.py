@@ -94,9 +94,8 @@ class Resting(Ball):
     def equations(self):
         yield der(self.h) == self.v
         yield der(self.v) == piecewise((0, self.lies > 0.5), -G)
-        yield when(self.h < 0, reinit(self.v, -self.e * self.v))
-        slow = (self.h < 0) & (self.v > -0.01)
-        yield when(slow, reinit(self.v, 0), reinit(self.lies, 1))
+        yield when((self.h < 0) & (self.v <= -0.01), reinit(self.v, -self.e * self.v))
+        yield when((self.h < 0) & (self.v > -0.01), reinit(self.v, 0), reinit(self.lies, 1))
 
 
 def test_ball_comes_to_rest():

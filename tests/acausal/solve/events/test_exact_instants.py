@@ -242,8 +242,9 @@ def both(first: str, second: str) -> type[Model]:
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("second", KINDS)
 @pytest.mark.parametrize("first", KINDS)
-def test_of_two_statements_the_later_counts(first: str, second: str, method: Any) -> None:
-    assert ac.simulate(both(first, second)(), stop_time=2.0, method=method)["n"][-1] == 2
+def test_two_statements_that_disagree_at_one_instant_end_a_run(first: str, second: str, method: Any) -> None:
+    with pytest.raises(ac.SimulationError, match="2 statements set `n` to different values"):
+        ac.simulate(both(first, second)(), stop_time=2.0, method=method)
 
 
 def test_constraints_without_a_solution_on_the_way_end_a_run(monkeypatch: pytest.MonkeyPatch) -> None:

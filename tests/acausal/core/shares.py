@@ -1,4 +1,4 @@
-"""Friction forces at rest as shares of their limits: a linear complementarity problem with bounds, solved by the core."""
+"""Shares of friction forces at rest, computed by the core."""
 
 from __future__ import annotations
 
