@@ -9,30 +9,25 @@ import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.memo import memoized
-from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
+from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, make_tape
 from acausal.instructions import READABLE
 from acausal.language.functions import time
 from acausal.symbols import dense
 
 
 @memoized
-def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equations:
+def core_equations(compiled: CompiledModel, moves: bool) -> Equations:
     """Return the integrated equations as tapes.
 
     Parameters
     ----------
     compiled : CompiledModel
         The model.
-    works : bool
-        Whether to integrate the powers.
     moves : bool
         Whether the projection of closed loops moves.
     """
     r = compiled.reduced
     arguments = (r.x, r.z, time.sx, r.p, r.constants)
-    if works:
-        powers = ca.substitute(compiled.powers, r.projections.moves, moves)
-        return with_powers(core_equations(compiled, False, moves), arguments, powers)
     ode, alg = (ca.substitute(column, r.projections.moves, moves) for column in (r.running.ode, r.running.alg))
     return make_equations(*arguments, ode, alg)
 
@@ -48,7 +43,7 @@ def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
     moves : bool
         Whether the projection of closed loops moves.
     """
-    return laws_of(core_equations(compiled, False, moves).values, 2, (3, 4))
+    return laws_of(core_equations(compiled, moves).values, 2, (3, 4))
 
 
 @memoized

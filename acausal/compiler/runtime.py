@@ -84,7 +84,7 @@ class Runtime:
     def equations(self) -> Equations:
         """The equations that are integrated."""
         if self._shares:
-            return core_equations(self.compiled, False, self.moves)
+            return core_equations(self.compiled, self.moves)
         x, z, t, p, c = self._symbols
         return make_equations(x, z, t, p, c, *self.running)
 

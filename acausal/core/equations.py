@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from ctypes import pointer
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
 
-from acausal.core.library import EquationsData, Pool
 from acausal.core.tape import Tape, make_tape
 from acausal.instructions import READABLE
 from acausal.symbols import dense
@@ -41,21 +38,6 @@ class Equations:
     row: np.ndarray
     diagonal: np.ndarray
 
-    @cached_property
-    def data(self) -> EquationsData:
-        """What the library takes; it holds addresses of the arrays of these equations."""
-        tapes = (self.values.data, self.slopes.data, self.powers.data if self.powers else None)
-        return EquationsData(
-            *(self.nx, self.nz, self.np, self.nc),
-            *(None if tape is None else pointer(tape) for tape in tapes),
-            *(array.ctypes.data for array in (self.start, self.row, self.diagonal)),
-        )
-
-    @cached_property
-    def pools(self) -> dict[str, Pool]:
-        """Memory of each method for these equations."""
-        return {method: Pool(method, self.data, "stepper") for method in ("rodas", "ida")}
-
 
 def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX) -> Equations:
     """Return equations as tapes.
@@ -84,11 +66,6 @@ def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX,
         *(_tape("values", arguments, F), _tape("slopes", arguments, slopes), None),
         *(start, row, diagonal),
     )
-
-
-def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX) -> Equations:
-    """Return equations with at most two expressions in x, z, t, p, c that are integrated besides."""
-    return replace(equations, powers=_tape("powers", arguments, powers))
 
 
 def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:

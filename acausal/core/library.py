@@ -50,51 +50,6 @@ class SquareData(Structure):
     )
 
 
-class EquationsData(Structure):
-    """What the library takes as equations, see `core.h`."""
-
-    _fields_ = (
-        *((name, c_int32) for name in ("nx", "nz", "np", "nc")),
-        *((name, POINTER(TapeData)) for name in ("values", "slopes", "powers")),
-        *((name, c_void_p) for name in ("start", "row", "diagonal")),
-    )
-
-
-class RequestData(Structure):
-    """What the library takes as the request for an integration, see `stepper.h`."""
-
-    _fields_ = (
-        ("tolerance", c_double),
-        ("first_step", c_double),
-        ("size", c_void_p),
-        ("rate", c_void_p),
-        ("smooth", c_int32),
-        ("largest", c_int32),
-        ("singular", c_int32),
-        ("most", c_int64),
-        ("share", c_int32),
-        ("outputs", c_int32),
-        *((name, c_void_p) for name in ("time", "x", "z", "integral", "taken")),
-        ("room", c_int32),
-        *((name, c_void_p) for name in ("step_time", "step_y", "step_dense")),
-        ("order", c_int32),
-        ("newton", c_double),
-    )
-
-
-class Progress(Structure):
-    """Counts of an integration, written outputs, kept steps, and the time that was reached, see `stepper.h`."""
-
-    _fields_ = (
-        *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
-        ("written", c_int32),
-        ("kept", c_int32),
-        ("time", c_double),
-        ("turned", c_int64),
-        ("factors", c_int64),
-    )
-
-
 # Result and arguments of each function; arrays are addresses.
 FUNCTIONS = {
     "ac_version": (c_char_p, ()),
@@ -111,17 +66,8 @@ FUNCTIONS = {
     "ac_settler_least": (c_double, (c_void_p,)),
     "ac_settler_renew": (None, (c_void_p,)),
     "ac_settler_free": (None, (c_void_p,)),
-    "ac_rodas_make": (c_void_p, (POINTER(EquationsData),)),
-    "ac_shares": (c_int32, (c_int32, *[c_void_p] * 6)),
-    "ac_ida_make": (c_void_p, (POINTER(EquationsData),)),
     "ac_ida_function": (c_char_p, (c_int32,)),
     "ac_ida_load": (None, (c_void_p,)),
-    "ac_stepper_begin": (None, (c_void_p, POINTER(RequestData), *[c_void_p] * 4)),
-    "ac_stepper_move": (None, (c_void_p, c_void_p, c_void_p)),
-    "ac_stepper_allow": (None, (c_void_p, c_int64)),
-    "ac_stepper_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
-    "ac_stepper_renew": (None, (c_void_p,)),
-    "ac_stepper_free": (None, (c_void_p,)),
     "ac_unit_read": (c_void_p, (c_char_p, c_size_t, POINTER(c_int32))),
     "ac_unit_free": (None, (c_void_p,)),
     "ac_instance_make": (c_void_p, (c_void_p,)),
@@ -201,14 +147,11 @@ class Pool:
         What it is for, as in the names of the functions that make, renew and free it.
     data : Structure
         What the library takes as the equations.
-    family : str, optional
-        Of what kind it is to those that renew and free it, where that is another one.
     """
 
-    def __init__(self, kind: str, data: Structure, family: str = "") -> None:
-        names = kind, family or kind, family or kind
+    def __init__(self, kind: str, data: Structure) -> None:
         self._make, self._renew, self._free = (
-            getattr(loaded(), f"ac_{name}_{what}") for name, what in zip(names, ("make", "renew", "free"), strict=True)
+            getattr(loaded(), f"ac_{kind}_{what}") for what in ("make", "renew", "free")
         )
         self._data, self._idle = data, list[int]()
 

@@ -27,24 +27,6 @@ class Back(IntEnum):
     UNFIT = 5
 
 
-class Doubt(IntEnum):
-    """Reasons of doubt, beside those of `End`, and why an event iteration fails.
-
-    Closed loops are in a singular configuration, or creep towards one; algebraic unknowns jump; a condition has no value;
-    conditions do not settle; what is differentiated jumps; a jump gives no finite number; closed loops do not close after it;
-    or two statements set one variable to different values.
-    """
-
-    SINGULAR = 16
-    FOLD = 17
-    UNDEFINED = 18
-    UNSETTLED = 19
-    DISCONTINUOUS = 20
-    NO_NUMBER = 21
-    APART = 22
-    CONTRADICTION = 23
-
-
 class MethodData(Structure):
     """Method of a run, see `ac_run_method` and `ac_multistep` in the core."""
 

@@ -59,7 +59,7 @@ def compiled_side(model: CompiledModel, repeats: int) -> tuple[Side, ac.Result]:
     runs = [run_anew(model, **how) for _ in range(repeats)]
     best = min(runs, key=lambda r: r.stats["integration_seconds"]).stats
     solve = min(r.stats["solve_seconds"] for r in runs)
-    equations = core_equations(model, False, False)
+    equations = core_equations(model, False)
     side = Side(
         model.nx,
         model.nz,

@@ -63,7 +63,7 @@ def main() -> None:
             first = [f"{tolerance:g}", str(volumes)]
             ours, new, again = best(compiled, tolerance, "idas")
             mark = hand.simulate(by_hand, tolerance, repeats=REPEATS)
-            nonzeros = core_equations(compiled, False, False).row.size
+            nonzeros = core_equations(compiled, False).row.size
             pairs = [
                 (ours.stats["algebraic"], by_hand.n_algebraic),
                 *_counts(ours, mark),

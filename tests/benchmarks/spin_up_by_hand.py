@@ -33,7 +33,8 @@ import casadi as ca
 import numpy as np
 import sympy as sp
 
-from acausal.core import End, Stepper, make_equations
+from acausal.core import End, make_equations
+from tests.acausal.core.stepper import Stepper
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ctypes import c_int32, c_void_p
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,6 +46,8 @@ def shares(A: np.ndarray, b: np.ndarray, reached: np.ndarray) -> Shares:
     """
     given = [np.ascontiguousarray(a, dtype=float) for a in (A, b, reached)]
     share, sense, sticks = found = [np.empty(len(b)) for _ in range(3)]
-    if loaded(runs=False).ac_shares(len(b), *map(address, (*given, *found))):
+    solve = loaded().ac_shares
+    solve.argtypes = (c_int32, *[c_void_p] * 6)
+    if solve(len(b), *map(address, (*given, *found))):
         raise MemoryError
     return Shares(share, sense, sticks > 0)

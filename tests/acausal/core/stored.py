@@ -7,16 +7,20 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
+import casadi as ca
 import numpy as np
 
-from acausal.core import End, Stepper, StoredModel
+from acausal.compiler.core_equations import core_equations
+from acausal.core import End, StoredModel
 from acausal.core.build.compiling import CORE, FLAGS
+from acausal.language.functions import time
 from acausal.policy import POLICY
 from acausal.solve.initialization.coordinate_partitioning import choose_projection
 from acausal.solve.initialization.initial_modes import leave_singular_start, start
-from acausal.solve.integrate.stored import stored
+from acausal.solve.integrate.one_step import are_rates
 from acausal.solve.problem import Problem
 from models import SCENES
+from tests.acausal.core.stepper import Stepper, with_powers
 from tests.shared import CONTRACT, compiled
 
 # Lengths of the first smooth segment of each scene: the torque of the slider-crank ends, the parallelogram comes to lie flat.
@@ -37,7 +41,16 @@ def scene(name: str) -> StoredModel:
     if moves:
         at = problem.projected(at)
         at = replace(at, constants=choose_projection(problem, at, moves=True))
-    return stored(problem, at, works=True, moves=moves)
+    r = model.reduced
+    powers = ca.substitute(model.powers, r.projections.moves, moves)
+    return StoredModel(
+        with_powers(core_equations(model, moves), (r.x, r.z, time.sx, r.p, r.constants), powers),
+        at.time,
+        *(at.x, at.z, problem.p, at.constants.vector),
+        size=problem.nominal[: problem.nx],
+        rate=are_rates(problem),
+        names=model.states,
+    )
 
 
 def written(name: str, folder: Path) -> Path:

@@ -8,7 +8,8 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from acausal.core import End, Stepper, idas, sundials, why_no_idas
+from acausal.core import End, sundials, why_no_idas
+from tests.acausal.core.stepper import Stepper, idas
 from tests.acausal.core.stored import SPANS, scene
 from tests.acausal.core.test_rodas import TIMES, equations, integrated, known, solution
 

@@ -11,8 +11,8 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from acausal.core import End, Equations, Stepper, make_equations, with_powers
-from acausal.core.library import Progress
+from acausal.core import End, Equations, make_equations
+from tests.acausal.core.stepper import Progress, Stepper, with_powers
 
 
 def equations(ode, alg=lambda x, z, t, p: ca.SX(0, 1), nx=1, nz=0, np=1, powers=None) -> Equations:

@@ -1,38 +1,142 @@
-"""Steppers of the core: integrators behind one interface."""
+"""Steppers of the core, without events."""
 
 from __future__ import annotations
 
-from ctypes import byref
-from dataclasses import dataclass
-from enum import IntEnum
+import ctypes
+from collections.abc import Sequence
+from ctypes import POINTER, Structure, byref, c_double, c_int32, c_int64, c_void_p, pointer
+from dataclasses import dataclass, replace
+from functools import cache
 
+import casadi as ca
 import numpy as np
 
-from acausal.core.curve import Curve
-from acausal.core.equations import Equations
-from acausal.core.library import Progress, RequestData, address, loaded
+from acausal.core import End, Equations, make_tape, why_no_idas
+from acausal.core.library import TapeData, address, loaded
+from acausal.instructions import READABLE
 from acausal.locks import unlocked
 from acausal.signals import Signals
+from acausal.symbols import dense
 
 # Rows of coefficients of the interpolant of each method.
 ROWS = {"rodas": 3, "ida": 4}
 
 
-class End(IntEnum):
-    """How an integration ended.
+class EquationsData(Structure):
+    """What the library takes as equations, see `core.h`."""
 
-    At its last output; after the steps it was given; with too many between two outputs; by step size underflow, of the error
-    test (`SHORT`) or as the equations had no value or no regular Jacobian (`UNSOLVED`); without memory; as the tolerance is
-    below round-off.
+    _fields_ = (
+        *((name, c_int32) for name in ("nx", "nz", "np", "nc")),
+        *((name, POINTER(TapeData)) for name in ("values", "slopes", "powers")),
+        *((name, c_void_p) for name in ("start", "row", "diagonal")),
+    )
+
+
+class RequestData(Structure):
+    """What the library takes as the request for an integration, see `stepper.h`."""
+
+    _fields_ = (
+        ("tolerance", c_double),
+        ("first_step", c_double),
+        ("size", c_void_p),
+        ("rate", c_void_p),
+        ("smooth", c_int32),
+        ("largest", c_int32),
+        ("singular", c_int32),
+        ("most", c_int64),
+        ("share", c_int32),
+        ("outputs", c_int32),
+        *((name, c_void_p) for name in ("time", "x", "z", "integral", "taken")),
+        ("room", c_int32),
+        *((name, c_void_p) for name in ("step_time", "step_y", "step_dense")),
+        ("order", c_int32),
+        ("newton", c_double),
+    )
+
+
+class Progress(Structure):
+    """Counts of an integration, written outputs, kept steps, and the time that was reached, see `stepper.h`."""
+
+    _fields_ = (
+        *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
+        ("written", c_int32),
+        ("kept", c_int32),
+        ("time", c_double),
+        ("turned", c_int64),
+        ("factors", c_int64),
+    )
+
+
+FUNCTIONS = {
+    "ac_rodas_make": (c_void_p, (POINTER(EquationsData),)),
+    "ac_ida_make": (c_void_p, (POINTER(EquationsData),)),
+    "ac_stepper_begin": (None, (c_void_p, POINTER(RequestData), *[c_void_p] * 4)),
+    "ac_stepper_move": (None, (c_void_p, c_void_p, c_void_p)),
+    "ac_stepper_allow": (None, (c_void_p, c_int64)),
+    "ac_stepper_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
+    "ac_stepper_renew": (None, (c_void_p,)),
+    "ac_stepper_free": (None, (c_void_p,)),
+}
+
+
+@cache
+def library() -> ctypes.CDLL:
+    """Return the library with the types of its steppers."""
+    core = loaded()
+    for name, (result, arguments) in FUNCTIONS.items():
+        function = getattr(core, name)
+        function.restype, function.argtypes = result, arguments
+    return core
+
+
+def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX) -> Equations:
+    """Return equations with at most two expressions in x, z, t, p, c that are integrated besides."""
+    tape = make_tape(ca.Function("powers", list(arguments), [dense(powers)], READABLE), early=(3, 4))
+    return replace(equations, powers=tape)
+
+
+def idas(equations: Equations) -> Stepper:
+    """Return IDAS as an integrator of some equations, whose library has to be loaded."""
+    assert not why_no_idas()
+    return Stepper(equations, "ida")
+
+
+def data_of(e: Equations) -> EquationsData:
+    """Return what the library takes; it holds addresses of the arrays of these equations."""
+    tapes = (e.values.data, e.slopes.data, e.powers.data if e.powers else None)
+    return EquationsData(
+        *(e.nx, e.nz, e.np, e.nc),
+        *(None if tape is None else pointer(tape) for tape in tapes),
+        *(array.ctypes.data for array in (e.start, e.row, e.diagonal)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Interpolants of steps in a row.
+
+    Attributes
+    ----------
+    times : array, shape (m + 1,)
+        Ends of the steps, ascending.
+    y : array, shape (m + 1, n)
+        Values there.
+    dense : array, shape (m, rows, n)
+        Coefficients of each step, as the library has them.
     """
 
-    DONE = 0
-    MORE = 1
-    MANY = 2
-    SHORT = 3
-    UNSOLVED = 4
-    MEMORY = 5
-    ROUNDING = 6
+    times: np.ndarray
+    y: np.ndarray
+    dense: np.ndarray
+
+    def __call__(self, times: np.ndarray) -> np.ndarray:
+        """Values at times in these steps, shape (k, n)."""
+        k = np.clip(np.searchsorted(self.times, times) - 1, 0, len(self.dense) - 1)
+        s = ((times - self.times[k]) / (self.times[k + 1] - self.times[k]))[:, None]
+        *rest, d = np.moveaxis(self.dense[k], 1, 0)
+        for row in reversed(rest):
+            d = row + s * d
+        return (1 - s) * self.y[k] + s * (self.y[k + 1] + (1 - s) * d)
 
 
 @dataclass(frozen=True)
@@ -70,15 +174,16 @@ class Stepper:
     """
 
     def __init__(self, equations: Equations, method: str = "rodas") -> None:
-        self._library, self.equations, self.method = loaded(), equations, method
-        self._memory = equations.pools[method].take()
+        self._library, self.equations, self.method = library(), equations, method
+        self._data = data_of(equations)
+        self._memory = getattr(self._library, f"ac_{method}_make")(byref(self._data))
         self.progress = Progress()
         self._request: tuple[object, ...] = ()
         self._steps = np.empty(0), np.empty((0, 0)), None
 
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
-            self.equations.pools[self.method].give(self._memory)
+            self._library.ac_stepper_free(self._memory)
 
     def begin(
         self,
