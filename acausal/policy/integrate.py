@@ -107,6 +107,8 @@ class Calls:
     few: int = 8
     # Operations of the core in a slice, some hundredths of a second, for which an interrupt waits: 10 evaluations a step.
     at_once: int = 3_000_000
+    # A step takes at least as long as so many operations: 2 to 4 us by IDAS.
+    least: int = 150
 
 
 @dataclass(frozen=True)

@@ -69,7 +69,7 @@ class Passed:
 
 def at_once(equations: Equations) -> int:
     """Return how many steps of the core take some hundredths of a second, for which an interrupt may wait."""
-    return max(1, CALLS.at_once // (equations.values.size + equations.slopes.size))
+    return max(1, CALLS.at_once // max(equations.values.size + equations.slopes.size, CALLS.least))
 
 
 class Hybrid:
@@ -258,9 +258,7 @@ class Hybrid:
                 room=min(SAMPLING.rows, 4 + SAMPLING.numbers // numbers),
             )
             self._made = way, run
-            self._steps = (
-                at_once(core_equations(c, False, way.moves)) if way.moves or not integrator.loops else CALLS.few
-            )
+            self._steps = at_once(core_equations(c, way.moves)) if way.moves or not integrator.loops else CALLS.few
         assert self._made is not None
         return self._made[1]
 
