@@ -13,11 +13,11 @@ from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.initialization.initial_modes import origins_text
+from acausal.solve.integrate.core_run import make_run
 from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
 from acausal.solve.integrate.methods import METHODS, multistep_settings
 from acausal.solve.integrate.order_doubt import doubt, is_open
-from acausal.solve.integrate.stored import make_run
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.point import Point, Rows
 

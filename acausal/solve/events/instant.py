@@ -14,8 +14,8 @@ from acausal.solve.diagnosis.singularity import undetermined
 from acausal.solve.events.redundant_laws import RedundantLaws
 from acausal.solve.initialization.assembly import refuse_open_loops
 from acausal.solve.initialization.newton import algebraic
+from acausal.solve.integrate.core_run import make_run
 from acausal.solve.integrate.ladder import Failure
-from acausal.solve.integrate.stored import make_run
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
 
