@@ -13,7 +13,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language.formatting import kind_of, short
 
-# Keyed by class name, as these modules import the class of expressions: words for the value, remedy.
+# Class name: description and remedy. Names in place of classes avoid circular imports.
 WORDS = {
     "Equation": ("an equation", "State it alone: yield a == b."),
     "Condition": ("an inequality", "A condition chooses a value: piecewise((value, a < b), otherwise)."),

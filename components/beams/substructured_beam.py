@@ -90,7 +90,7 @@ class SubstructuredBeam(Beam):
 
     @observed
     def node_force(self):
-        """Section force on the side of frame_a at every node, shape (nodes, 3), in the frame of its volume, in N."""
+        """Section force on the frame_a side of each node, resolved in the frame of its volume, shape (nodes, 3), in N."""
         return self._nodes("node_force")
 
     @observed

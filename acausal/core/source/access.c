@@ -11,7 +11,7 @@ enum { TOLERANCE, DAMPING, MOST, SETTINGS };
 #define HYSTERESIS 1e-3 /* of what a condition may be off: beyond it an indicator changes its sign, so that rounding does not */
 #define MOST_WEAK 100   /* events in a row with hardly any motion between are chattering */
 
-/* Sign by which an indicator counts as positive while nothing changes. */
+/* Factor, 1 or -1, that makes an indicator positive until its condition changes. */
 static double side(const ac_instance *i, int32_t guard) { return i->truth[guard] > 0 ? -1 : 1; }
 
 /* Level at which an indicator has changed in Model Exchange: one that is not positive after an event does so where it falls further. */

@@ -127,7 +127,7 @@ static void put_step(ac_instance *i, const double *rate) {
     i->now.curved = 1, i->now.integrates = 0, i->now.crosses = 1, i->now.event = INFINITY;
 }
 
-/* Cross a singular configuration that is close ahead of the end of the last step; return whether that is the last step now. */
+/* Extrapolate across a singular configuration just beyond the last step; return whether it was crossed, which is then the last step. */
 int ac_cross(ac_instance *i) {
     const double time = i->now.time, here = i->now.sharp, there = i->now.sharp_before;
     if (!i->of->levels || i->now.pasts < AC_POINTS || i->now.crosses || !(here < CLOSE && there > here)) return 0;

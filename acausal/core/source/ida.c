@@ -161,7 +161,7 @@ static double first_step(const ac_ida *i) {
     return q->first_step > 0 ? fmin(own, q->first_step) : own;
 }
 
-/* Begin at the present, with the rates of the states that the equations give; those of algebraic unknowns are predicted as 0. */
+/* Start at the current point: derivatives of the states follow from the equations, those of algebraic unknowns start as 0. */
 static int start(ac_ida *i) {
     ac_stepper *s = &i->s;
     const ac_request *q = &s->request;

@@ -87,7 +87,7 @@ typedef struct {
     double delay;                          /* for how long the time of the event is uncertain by the tolerance */
     double sharp, sharp_before, sharp_pace; /* smallest singular value of constraints at the ends of the last step, and its change over time */
     double firm;                           /* conditioning of the kept constraints when the integration began; 0 where none is spare */
-    double since, longer, last;            /* where the output interval begins; the longer of the last two steps, and the last one */
+    double since, longer, last;            /* start of the output interval; longer of the last two steps; last step */
     int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
     int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
     ac_pace pace;                          /* of the integration */
@@ -118,7 +118,7 @@ typedef struct {
     int32_t solved[AC_ROWS];
 } ac_samples;
 
-/* Request of a multistep method, as of `ac_request`: size, which has to stay, is NULL for another method. */
+/* Settings of a multistep method, as in `ac_request`. `size` must outlive the run; it is NULL for other methods. */
 typedef struct {
     const double *size;
     double tolerance, newton;

@@ -259,5 +259,5 @@ def _jacobians(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.n
 
 
 def least_cosine(problem: Problem) -> float:
-    """Cosine below which a projection is chosen anew; where n coordinates move alike the best choice has 1/sqrt(n)."""
+    """Smallest acceptable cosine between constraints and projection; at best it is 1/sqrt(n), if n coordinates move equally."""
     return min(LOOPS.worn, LOOPS.fit / problem.nx**0.5)

@@ -78,7 +78,7 @@ class Settings:
     @property
     def way(self) -> Way:
         """The way to begin with."""
-        # A projection that moves would excite vibrations of elastic parts, which IDAS follows.
+        # With IDAS the projection is fixed: updating it excites elastic vibrations, which IDAS would then resolve.
         moves = self.constraints == "projection" or (self.constraints == "auto" and self.methods[0] != "idas")
         return Way(self.methods[0], moves, self.tolerance)
 
