@@ -101,8 +101,10 @@ class Calls:
     newton: float = 0.05
     newton_in_loops: float = 0.005
     # Tolerance of IDAS relative to that of the run, where there are loops without vibrations that outputs cannot show: on
-    # over-constrained loops with springs its errors were 30 to 80 times those of the one-step method.
+    # over-constrained loops with springs its errors were 30 to 80 times those of the one-step method. Below the second, rounding
+    # counts.
     stricter_in_loops: float = 0.01
+    strictest: float = 1e-10
     # Steps of a slice after which the states chosen for loops are checked.
     few: int = 8
     # Operations of the core in a slice, some hundredths of a second, for which an interrupt waits: 10 evaluations a step.

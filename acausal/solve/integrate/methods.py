@@ -96,8 +96,9 @@ def multistep_settings(problem: Problem, settings: Settings, way: Way, floor: np
     """
     loops = problem.compiled.constraints.size
     newton = CALLS.newton_in_loops if loops else CALLS.newton
-    stricter = loops and not settings.vibrates(settings.span / settings.outputs)
-    tolerance = way.tolerance * (CALLS.stricter_in_loops if stricter else 1.0)
+    tolerance = way.tolerance
+    if loops and tolerance == settings.tolerance and not settings.vibrates(settings.span / settings.outputs):
+        tolerance = max(CALLS.stricter_in_loops * tolerance, min(tolerance, CALLS.strictest))
     return Multistep(np.maximum(settings.nominal, floor / tolerance), tolerance, settings.order(way), newton)
 
 
