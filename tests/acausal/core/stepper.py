@@ -207,42 +207,10 @@ class Stepper:
         order: int = 5,
         newton: float = 0.05,
     ) -> Outputs:
-        """Prepare an integration from the first of some times to the last; return what `go` fills.
+        """Prepare an integration from the first of some times to the last, from consistent values; return what `go` fills.
 
-        Parameters
-        ----------
-        times : array, shape (n + 1,)
-            Start and output times.
-        x, z, p, c : arrays
-            States and algebraic unknowns at the start, consistent; parameters; constants of the segment.
-        size : array, shape (nx,), or (nx + nz,) for IDAS
-            Sizes of the states: the error of a step is that over tolerance (size + |x|), root mean square. IDAS weighs what
-            Newton iterations leave of the algebraic unknowns likewise.
-        tolerance : float
-            Relative tolerance.
-        first_step : float, optional
-            Length of the first step that is tried; chosen if 0.
-        rate : array, shape (nx,), optional
-            Whether a state is the rate of another one; the first step resolves how these change.
-        smooth : bool, optional
-            Whether the error of rates leaves out vibrations that a step does not resolve.
-        largest : bool, optional
-            Whether the largest error of a state counts, not their root mean square.
-        singular : bool, optional
-            Whether positions of closed loops may be passed at which algebraic unknowns grow without end: whether their equations
-            are solved where a step ends does not count then.
-        most : int, optional
-            Steps between two outputs.
-        share : int, optional
-            Number of outputs that share these steps.
-        room : int, optional
-            Most steps that are kept, see `steps`.
-        curves : bool, optional
-            Whether their interpolants are kept instead of outputs, see `curve`.
-        order : int, optional
-            Highest order of IDAS.
-        newton : float, optional
-            Part of the tolerance that Newton iterations of IDAS may leave.
+        Arguments are those of `ac_request`. `share` outputs share `most` steps; `room` steps are kept, see `steps`, and with
+        `curves` their interpolants in place of outputs, see `curve`.
         """
         e, n = self.equations, len(times) - 1
         rows = 0 if curves else n
