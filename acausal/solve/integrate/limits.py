@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from bisect import bisect_left
 
 import numpy as np
 
@@ -45,7 +46,7 @@ class Limits:
     ) -> None:
         self.problem, self.span, self.tolerance = problem, span, tolerance
         self.max_steps, self.max_seconds, self.begun = max_steps, max_seconds, begun
-        self._slices: list[tuple[float, int]] = [(span[0], 0)]  # times and steps at the ends of slices
+        self._times, self._steps = [span[0]], [0]  # at the ends of slices
         self._reached: np.ndarray | None = None
 
     def left(self, trace: Trace, steps: int) -> int:
@@ -58,8 +59,9 @@ class Limits:
             raise Failure(at.time, f"it has taken max_steps = {self.max_steps} steps", Kind.LIMIT, at)
         if self.max_seconds is not None and clock.perf_counter() - self.begun >= self.max_seconds:
             raise Failure(at.time, f"it has taken max_seconds = {self.max_seconds:g} s", Kind.LIMIT, at)
-        if trace.steps > self._slices[-1][1] and at.time > self._slices[-1][0]:
-            self._slices.append((at.time, trace.steps))
+        if trace.steps > self._steps[-1] and at.time > self._times[-1]:
+            self._times.append(at.time)
+            self._steps.append(trace.steps)
             self._refuse_divergence(at, trace)
 
     def _refuse_divergence(self, at: Point, trace: Trace) -> None:
@@ -87,7 +89,9 @@ class Limits:
 
     def _shortening(self) -> float:
         """Return the mean step in the middle of the time so far, over that of the last slice."""
-        times, steps = (np.array(column) for column in zip(*self._slices, strict=True))
-        means = np.diff(times) / np.diff(steps)
-        middle = int(np.searchsorted(times, (times[0] + times[-1]) / 2)) - 1
-        return float(means[max(middle, 0)] / means[-1])
+        times = self._times
+        return self._mean(bisect_left(times, (times[0] + times[-1]) / 2)) / self._mean(len(times) - 1)
+
+    def _mean(self, k: int) -> float:
+        """Return the mean step of a slice."""
+        return (self._times[k] - self._times[k - 1]) / (self._steps[k] - self._steps[k - 1])
