@@ -88,13 +88,12 @@ def check_limits(max_steps: Any, max_seconds: Any) -> None:
     max_steps, max_seconds : object
         The limits; None for none.
     """
-    whole = isinstance(max_steps, int | np.integer) and not isinstance(max_steps, bool)
-    if max_steps is not None and not (whole and max_steps >= 1):
-        raise DeclarationError(f"max_steps is {max_steps!r}; it must be a whole number of at least 1.")
+    if max_steps is not None:
+        _check_count("max_steps", max_steps)
     if max_seconds is not None:
-        number = isinstance(max_seconds, int | float | np.number) and not isinstance(max_seconds, bool)
-        if not (number and 0 < max_seconds < np.inf):
-            raise DeclarationError(f"max_seconds is {max_seconds!r}; it must be a positive number.")
+        check_number("max_seconds", max_seconds)
+        if max_seconds <= 0:
+            raise DeclarationError(f"max_seconds is {max_seconds!r}; it must be positive.")
 
 
 def check_intervals(intervals: Any) -> None:
@@ -105,12 +104,17 @@ def check_intervals(intervals: Any) -> None:
     intervals : object
         The number.
     """
-    if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
-        whole = isinstance(intervals, float) and intervals >= 1 and intervals.is_integer()
-        remedy = f": {int(intervals)}" if whole else ""
-        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1{remedy}.")
+    _check_count("intervals", intervals)
     if intervals > MOST:
         raise DeclarationError(f"intervals is {intervals}; at most {MOST} points are allowed.")
+
+
+def _check_count(name: str, value: Any) -> None:
+    """Raise DeclarationError if a setting is not a positive whole number."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
+        whole = isinstance(value, float) and value >= 1 and value.is_integer()
+        remedy = f": {int(value)}" if whole else ""
+        raise DeclarationError(f"{name} is {value!r}; it must be a whole number of at least 1{remedy}.")
 
 
 def _check(task: Task, accuracy: float | None) -> None:
