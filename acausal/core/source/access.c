@@ -9,7 +9,6 @@ enum { TIME, STATE, RATE, GIVEN, VARIABLE, INDICATOR, SETTING, NONE };
 enum { TOLERANCE, DAMPING, MOST, SETTINGS };
 
 #define HYSTERESIS 1e-3 /* of what a condition may be off: beyond it an indicator changes its sign, so that rounding does not */
-#define MOST_WEAK 100   /* events in a row with hardly any motion between are chattering */
 
 /* Factor, 1 or -1, that makes an indicator positive until its condition changes. */
 static double side(const ac_instance *i, int32_t guard) { return i->truth[guard] > 0 ? -1 : 1; }
@@ -170,26 +169,27 @@ int32_t ac_event(ac_instance *i, ac_happened *found) {
 
 /* Model Exchange: values of the indicators that `level` and `note_crossings` need, from an event on. */
 static int32_t follow_indicators(ac_instance *i, int fresh) {
-    const int32_t failed = i->now.simulates || !i->of->watched ? AC_OK : ac_know(i, AC_GUARD);
-    for (int32_t k = 0; k < i->of->watched && !i->now.simulates && !failed; k++) {
+    if (i->now.simulates || !i->of->watched) return AC_OK;
+    const int32_t failed = ac_know(i, AC_GUARD);
+    for (int32_t k = 0; k < i->of->watched && !failed; k++) {
         const double value = side(i, k) * i->guards[k];
-        if (fresh) i->least[k] = fmin(value, 0), i->peak[k] = value;
-        else if (value > 0) i->least[k] = 0;
-        i->peak[k] = fmax(i->peak[k], value);
+        if (fresh || value > 0) i->least[k] = fmin(value, 0);
+        i->peak[k] = fresh ? value : fmax(i->peak[k], value);
     }
     return failed;
 }
 
 /* Model Exchange: which indicators change at an event, and whether they moved by more than their tolerance bands since the last one. */
 static int32_t note_crossings(ac_instance *i) {
-    const int32_t failed = i->now.simulates || !i->of->watched ? AC_OK : ac_know(i, AC_GUARD);
+    if (i->now.simulates || !i->of->watched) return AC_OK;
+    const int32_t failed = ac_know(i, AC_GUARD);
     int32_t changes = 0, weak = 1;
-    for (int32_t k = 0; k < i->of->watched && !i->now.simulates && !failed; k++) {
+    for (int32_t k = 0; k < i->of->watched && !failed; k++) {
         i->crossed[k] = side(i, k) * i->guards[k] <= level(i, k);
         if (i->crossed[k] > 0) changes = 1, weak &= i->peak[k] <= ac_width(i, k);
     }
     if (changes) i->now.weak = weak ? i->now.weak + 1 : 0;
-    return i->now.weak > MOST_WEAK ? ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.") : failed;
+    return i->now.weak > AC_MOST_WEAK ? ac_refuse_chatter(i) : failed;
 }
 
 int32_t ac_enter_event(ac_instance *i) {

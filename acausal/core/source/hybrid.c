@@ -8,7 +8,7 @@
 #define AHEAD 100       /* spans of a run: where no stop time is known */
 #define RETURN 64       /* steps after which closed loops go back to their constraints, as `simulate` does */
 #define CROWDED 1e-9    /* of a run: within that time ... */
-#define MOST_CROWDED 100 /* ... so many events, or as many in a row with hardly any motion between, are chattering */
+#define MOST_CROWDED 100 /* ... so many events are chattering */
 #define SNAP 0.01       /* of an output interval: an event that near an output, within its tolerance, is at the output */
 #define EARLY 1e-5      /* of a step: an event that comes so early is located again in a shorter step, as the dense output is off by a part
                            of all that moves in the step; not where it is that many rounding errors of the time away, or fewer */
@@ -37,7 +37,8 @@ static int32_t begin(ac_instance *i, double to) {
     if (!goes_on) i->now.end = fmin(horizon, i->now.next);
     i->ends[1] = fmin(to, i->now.end), i->ends[2] = i->now.end;
     const ac_request request = {
-        .tolerance = i->multistep.size ? i->multistep.tolerance : i->now.tolerance, .first_step = goes_on ? i->now.first_step : i->now.longer, .rate = m->rate,
+        .tolerance = i->multistep.size ? i->multistep.tolerance : i->now.tolerance,
+        .first_step = goes_on ? i->now.first_step : i->now.longer, .rate = m->rate,
         .size = i->multistep.size ? i->multistep.size : damps ? u->damped : m->size,
         .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
         .most = INT64_MAX / 4, .share = 1, .outputs = i->ends[1] < i->ends[2] ? 2 : 1, .time = i->ends, .room = 1,
@@ -182,7 +183,7 @@ static int32_t move(ac_instance *i, double to) {
 /* Whether events follow one another without end. */
 static int chatters(ac_instance *i) {
     if (i->now.time - i->now.crowd > CROWDED * i->of->span) i->now.crowd = i->now.time, i->now.crowded = 0;
-    return ++i->now.crowded > MOST_CROWDED || i->now.weak > MOST_CROWDED;
+    return ++i->now.crowded > MOST_CROWDED || i->now.weak > AC_MOST_WEAK;
 }
 
 /* Let happen what happens at the present. */
@@ -203,7 +204,7 @@ static int32_t act(ac_instance *i) {
     int32_t changed = 0;
     i->now.integrates = i->now.curved = i->now.pasts = 0;
     if (!i->recorder) {
-        return chatter ? ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.") : iterate(i, &changed);
+        return chatter ? ac_refuse_chatter(i) : iterate(i, &changed);
     }
     (void)ac_know(i, AC_Z); /* where it fails, so does the iteration */
     ac_save(i, i->kept);

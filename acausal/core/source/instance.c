@@ -14,6 +14,10 @@ int32_t ac_fail(ac_instance *i, int32_t status, const char *text) {
     return status;
 }
 
+int32_t ac_refuse_chatter(ac_instance *i) {
+    return ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.");
+}
+
 int32_t ac_refuse(ac_instance *i, int32_t why, const char *text) {
     i->why = why;
     return ac_fail(i, AC_FAILED, text);

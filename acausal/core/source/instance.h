@@ -109,6 +109,7 @@ enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16, AC_FACTO
 #define AC_FIRST_SAMPLES 8 /* samples of the first step after an event */
 #define AC_POINTS 4        /* points of the polynomial by which they cross it */
 #define AC_PAST 72         /* points of steps that are remembered to cross a singular configuration: steps shrink by a third or less on the way */
+#define AC_MOST_WEAK 100   /* events in a row with hardly any motion between are chattering */
 #define AC_DUE 2           /* of `crossed`: the condition holds now whatever its value, until that changes */
 #define AC_SLOTS 52        /* samples of indicators in a step that are kept at a time */
 
@@ -202,6 +203,7 @@ typedef void ac_part_of_step(ac_instance *i, double s);
 
 void ac_put(double *to, const double *from, int32_t count);     /* copy; NULL: nothing */
 int32_t ac_fail(ac_instance *i, int32_t status, const char *text);
+int32_t ac_refuse_chatter(ac_instance *i);                      /* events with hardly any motion between follow one another without end */
 int32_t ac_refuse(ac_instance *i, int32_t why, const char *text); /* the same with AC_FAILED for one of these reasons: */
 enum { AC_SINGULAR = 16, AC_FOLD, AC_UNDEFINED, AC_UNSETTLED, AC_DISCONTINUOUS, AC_NO_NUMBER, AC_APART, AC_CONTRADICTION };
 void ac_restart(ac_instance *i);

@@ -71,6 +71,7 @@ static int read_tapes(const ac_section *found, ac_unit *u) {
     for (int k = 0; k < AC_TAPES; k++) {
         const int64_t more = k == AC_CONTINUOUS ? (int64_t)varying + e->nc : k == AC_LAWS ? varying - 1 : 0;
         if (more > INT32_MAX - inputs || !ac_read_tape(found[TAPES + k], inputs + (int32_t)more, 0, varying, &u->tape[k])) return 0;
+        /* Without the tape of the clock, the caller decides what that changes. */
         if (outputs[k] >= 0 && u->tape[k].outputs != outputs[k] && (k != AC_TIMED || u->tape[k].outputs)) return 0;
     }
     /* A model without equations of its start is begun from outside. */
