@@ -172,8 +172,8 @@ def _integrated(problem: Problem, plan: _Plan, beginning: InitialPoint, task: Ta
     skipped = plan.times[(plan.times > task.start_time) & (plan.times < at.time)].tolist()
     passed = [leave_singular_start(problem, beginning.start, time) for time in skipped]
     for _ in range(POLICY.sizes.passes):
-        integrator = Integrator(problem, settings, ends, counts, beginning.start.point.constants)
-        integrator.limits = Limits(problem, ends, task.tolerance, task.max_steps, task.max_seconds, started)
+        limits = Limits(problem, ends, task.tolerance, task.max_steps, task.max_seconds, started)
+        integrator = Integrator(problem, settings, ends, counts, beginning.start.point.constants, limits)
         done = _Done(beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), None)
         try:
             done.course.go(at, passed)

@@ -43,6 +43,8 @@ class Integrator:
         Of an earlier run whose counts continue.
     fresh : Constants, optional
         Those of the start, whose projection was chosen there.
+    limits : Limits, optional
+        Where the run ends early.
     """
 
     def __init__(
@@ -52,13 +54,14 @@ class Integrator:
         span: tuple[float, float],
         before: Trace,
         fresh: Constants | None = None,
+        limits: Limits | None = None,
     ) -> None:
         self._fresh = fresh
         self.problem, self.compiled, self.settings, self.span = problem, problem.compiled, settings, span
         self.trace = before.emptied()
         self.consistent = Consistent(problem)
         self.way = settings.way
-        self.limits: Limits | None = None
+        self.limits = limits
         self._floor: np.ndarray | None = None
         self._chosen: tuple[Point, bool, Point] | None = None  # the last choice: where, whether it moves, and what
 
