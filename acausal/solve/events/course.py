@@ -87,11 +87,6 @@ class Course:
                 now = self.agenda.between(at.time, end)
                 at, held = self._at_break(at, now, held), now
             self._refuse_undecided(at, end)
-            for rest in ends_of_rests(self.integrator, at, end, self.times):
-                at = self._segment(at, rest)
-                if self.crossed is not None:
-                    at = self._at_row(at)
-                self.hybrid.restart()
             at = self._segment(at, end)
         self._at_stop(at, held)
 
@@ -156,15 +151,19 @@ class Course:
             warn_of_many(self.integrator.compiled, time, self.times, guards)
 
     def _segment(self, at: Point, end: float) -> Point:
-        while at.time < end:
-            if self.integrator.limits:
-                self.integrator.limits.check(at, self.integrator.trace)
-            at = self._passed(self.hybrid.go(at, min(end, self.rescue.until, self.orders.until), self.weak), end)
-            self.rescue.reached(at.time)
-            self.orders.reached(at.time)
-            self.integrator.report(at.time)
-            if self.crossed is not None and at.time < end:
-                at = self._at_row(at)
+        """Go to the next break; where laws of time end a rest, steps begin anew."""
+        for stop in (*ends_of_rests(self.integrator, at, end, self.times), end):
+            while at.time < stop:
+                if self.integrator.limits:
+                    self.integrator.limits.check(at, self.integrator.trace)
+                at = self._passed(self.hybrid.go(at, min(stop, self.rescue.until, self.orders.until), self.weak), stop)
+                self.rescue.reached(at.time)
+                self.orders.reached(at.time)
+                self.integrator.report(at.time)
+                if self.crossed is not None and at.time < end:
+                    at = self._at_row(at)
+            if stop < end:
+                self.hybrid.restart()
         return at
 
     def _passed(self, passed: Passed, end: float) -> Point:
