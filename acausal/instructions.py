@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 
 OUTPUT, INPUT, CONSTANT = ca.OP_OUTPUT, ca.OP_INPUT, ca.OP_CONST
-
+# Lookups of tables: names of the functions that CasADi calls, and codes of the operations.
+FINDS, LOADS = "find_in_column", "load_from_column"
+FIND, LOAD = 1001, 1002
+LOOKUPS = {FINDS: FIND, LOADS: LOAD}
 
 # Options of functions to be read: without reuse of work slots, each operation has its own slot. Otherwise the query of
 # the output slots would take a third of the reading time.
@@ -22,7 +26,7 @@ class Instructions:
     Attributes
     ----------
     op : list of int
-        CasADi's operation code of each operation.
+        CasADi's operation code of each operation, or that of a lookup.
     arguments : list of sequences of int
         Operands of each operation.
     constant : dict of int to float
@@ -50,6 +54,9 @@ def read_instructions(function: ca.Function) -> Instructions:
     """
     every = range(function.n_instructions())
     ids = list(map(function.instruction_id, every))
+    if ca.OP_CALL in ids:
+        function, ids = _with_lookups(function, ids)
+        every = range(len(ids))
     inputs: list[Sequence[int]] = list(map(function.instruction_input, every))
     nodes = [k for k in every if ids[k] != OUTPUT]
     if function.sz_w() < len(nodes):
@@ -75,3 +82,43 @@ def _operands(function: ca.Function, ids: list[int], inputs: list[Sequence[int]]
             slot[function.instruction_output(k)[0]] = node
             node += 1
     return found
+
+
+def _with_lookups(function: ca.Function, ids: list[int]) -> tuple[ca.Function, list[int]]:
+    """Return a function without the derivatives of lookups, which are 0, and its operation codes.
+
+    Raises
+    ------
+    ValueError
+        If the function calls something else.
+    """
+    nodes, values = _nodes(function), dict[int, Any]()
+    given = function.sx_in()
+    results = [ca.SX(function.sparsity_out(k)) for k in range(function.n_out())]
+    for k, op in enumerate(ids):
+        inputs, outputs = function.instruction_input(k), function.instruction_output(k)
+        operands = [] if op in (INPUT, CONSTANT) else [values[i] for i in inputs]
+        if op == INPUT:
+            own = given[inputs[0]].nz[inputs[1]]
+        elif op == CONSTANT:
+            own = ca.SX(function.instruction_constant(k))
+        elif op == OUTPUT:
+            results[outputs[0]].nz[outputs[1]] = operands[0]
+            continue
+        elif op == ca.OP_CALL:
+            called = nodes[k].which_function()
+            if not any(name in called.name() for name in LOOKUPS):
+                raise ValueError(f"the function calls {called.name()}, whose operations are unknown")
+            own = called(*operands) if called.name() in LOOKUPS else ca.SX(0)
+        else:
+            own = ca.SX.unary(op, *operands) if len(operands) == 1 else ca.SX.binary(op, *operands)
+        values |= dict.fromkeys(outputs, own)
+    without = ca.Function("without", given, results, READABLE)
+    nodes = _nodes(without)
+    ids = list(map(without.instruction_id, range(without.n_instructions())))
+    return without, [LOOKUPS[nodes[k].which_function().name()] if op == ca.OP_CALL else op for k, op in enumerate(ids)]
+
+
+def _nodes(function: ca.Function) -> list[Any]:
+    """Return the operations as expressions."""
+    return function.instructions_sx().elements()

@@ -45,6 +45,30 @@ def combined(left: ca.SX, operation: str, right: ca.SX) -> ca.SX:
     return ca.SX.binary(OPERATIONS[operation], left, right)
 
 
+def calls(column: ca.SX) -> bool:
+    """Return whether an expression contains calls of functions."""
+    return bool(ca.Function("column", [], [column], {"allow_free": True}).get_function())
+
+
+def inlined(symbols: ca.SX, values: ca.SX, expressions: list[ca.SX]) -> tuple[ca.SX, list[ca.SX]]:
+    """Return definitions, each inserted in those after it, and expressions with all of them inserted."""
+    if not calls(ca.vertcat(values, *map(vec, expressions))):
+        definitions, others = ca.substitute_inplace([symbols], [values], expressions)
+        return definitions[0], others
+    # CasADi's substitute_inplace fails where functions are called.
+    depth, levels = dict[int, int](), defaultdict[int, list[int]](list)
+    for k, (symbol, value) in enumerate(zip(scalars(symbols), scalars(values), strict=True)):
+        own = 1 + max((depth.get(s.element_hash(), -1) for s in ca.symvar(value)), default=-1)
+        depth[symbol.element_hash()] = own
+        levels[own].append(k)
+    found, before = ca.SX(values), list[int]()
+    for level in range(len(levels)):
+        if before:
+            found[levels[level]] = ca.substitute(found[levels[level]], symbols[before], found[before])
+        before += levels[level]
+    return found, ca.substitute(expressions, [symbols], [found])
+
+
 class Distinct:
     """Distinct scalar expressions, numbered in the order of their first appearance.
 

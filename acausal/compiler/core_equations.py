@@ -29,7 +29,7 @@ def core_equations(compiled: CompiledModel, moves: bool) -> Equations:
     r = compiled.reduced
     arguments = (r.x, r.z, time.sx, r.p, r.constants)
     ode, alg = (ca.substitute(column, r.projections.moves, moves) for column in (r.running.ode, r.running.alg))
-    return make_equations(*arguments, ode, alg)
+    return make_equations(*arguments, ode, alg, r.kinks)
 
 
 @memoized

@@ -18,9 +18,21 @@ from acausal.flatten.field_values import law_of_input, owner_text
 from acausal.flatten.instantiate import not_settable
 from acausal.flatten.numeric import misshapen, numeric
 from acausal.language import fields as f
+from acausal.language.driven import Driven
 from acausal.language.expression import Expr
 from acausal.language.quantities import plain
+from acausal.language.table import Table
+from acausal.language.value_checks import shown
 from acausal.symbols import dense, scalars, vec
+
+
+class _Values(np.ndarray):
+    """Values of parameters, with the tables whose numbers are among them, by their places."""
+
+    tables: dict[int, Table]
+
+    def __array_finalize__(self, of: Any) -> None:
+        self.tables = getattr(of, "tables", {})
 
 
 class Settable:
@@ -47,6 +59,9 @@ class Settable:
             its limits.
         """
         values = self.own.values.copy()
+        if self.own.tables:
+            values = values.view(_Values)
+            values.tables = dict(self.own.tables)
         for path, value in (changes or {}).items():
             self._set(values, path, value)
         if (numbers := values.tobytes()) != self._accepted:
@@ -78,8 +93,11 @@ class Settable:
         found = Call(ca.Function("value", [self.own.symbols], [ca.densify(value.sx)]))(self.values(None))[0]
         return found.reshape(value.shape, order="F").copy() if value.shape else float(found[0])
 
-    def _set(self, values: np.ndarray, path: str, value: Any) -> None:
+    def _set(self, values: Any, path: str, value: Any) -> None:
         """Set the entries of one parameter in the array of all values."""
+        if path in self._tables:
+            self._set_table(values, path, value)
+            return
         _check_kind(path, value)
         own, entries = self.own, self._entries(path)
         index = {name: k for k, name in enumerate(own.names)}
@@ -109,6 +127,27 @@ class Settable:
                     f"{_again(path)}"
                 )
 
+    def is_new_law(self, path: str, value: Any) -> bool:
+        """Return whether a value is the law of an input that is constant in this model."""
+        declared = self.tree.fields.get(path)
+        is_input = isinstance(declared, f.Variable) and declared.causality == "input"
+        return is_input and isinstance(value, Table | Driven) and path not in self._tables
+
+    def _set_table(self, values: _Values, path: str, value: Any) -> None:
+        """Set the numbers of a table, of the kind that the equations have."""
+        place = self._tables[path]
+        known = self.own.tables[place]
+        if not isinstance(value, Table):
+            raise DeclarationError(f"`{path}` is {shown(value)}; it must be a Table.")
+        if value.settings != known.settings:
+            raise DeclarationError(
+                f"`{path}` is {value!r} in place of {known!r}; kind, extrapolation and number of values are fixed when "
+                f"compiled. {_again(path)}"
+            )
+        for own, table in self.own.tables.items():
+            if table is known:
+                values[own], values.tables[own] = value.number, value
+
     def _entries(self, path: str) -> list[str]:
         """Return the names of the entries of a parameter; raise DeclarationError if it cannot be set."""
         own, prefix = self.own, path + "["
@@ -127,6 +166,10 @@ class Settable:
         name, _, entry = path.removesuffix("]").rpartition("[") if path not in self._fields else (path, "", "")
         unit = self._fields[name].unit
         return unit[int(entry.split(",")[0])] if entry and isinstance(unit, tuple) else unit
+
+    @cached_property
+    def _tables(self) -> dict[str, int]:
+        return {self.own.names[place]: place for place in self.own.tables if place not in self.own.raised}
 
     @cached_property
     def _fields(self) -> dict[str, Expr]:

@@ -17,7 +17,7 @@ from acausal.instructions import READABLE
 from acausal.language.functions import time
 from acausal.symbols import dense, picked, stacked
 
-VERSION = 7  # of the file format, as in unit.c
+VERSION = 8  # of the file format, as in unit.c
 INNER = 4  # role of a parameter that no importer sees, as in instance.h
 NOTHING = ca.SX(0, 1)
 # Why what is differentiated must not jump, and what to do instead.
@@ -86,7 +86,7 @@ class Runtime:
         if self._shares:
             return core_equations(self.compiled, self.moves)
         x, z, t, p, c = self._symbols
-        return make_equations(x, z, t, p, c, *self.running)
+        return make_equations(x, z, t, p, c, *self.running, self.compiled.reduced.kinks)
 
     @cached_property
     def sections(self) -> dict[str, bytes]:

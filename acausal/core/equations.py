@@ -21,8 +21,9 @@ class Equations:
     ----------
     nx, nz, np, nc : int
         Numbers of states, algebraic unknowns, parameters and constants of a segment.
-    values, slopes, powers : Tape
-        f and g; entries of their Jacobian, and their derivatives by time where they depend on it; at most two powers.
+    values, slopes, powers, kinks : Tape
+        f and g; entries of their Jacobian, and their derivatives by time where they depend on it; at most two powers; next
+        times, after the time, at which f and g have kinks.
     start, row, diagonal : arrays of int
         Sparsity of the Jacobian in columns, and the places in it of the diagonal of the states.
     """
@@ -34,12 +35,15 @@ class Equations:
     values: Tape
     slopes: Tape
     powers: Tape | None
+    kinks: Tape | None
     start: np.ndarray
     row: np.ndarray
     diagonal: np.ndarray
 
 
-def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX) -> Equations:
+def make_equations(
+    x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX, kinks: ca.SX | None = None
+) -> Equations:
     """Return equations as tapes.
 
     Parameters
@@ -48,6 +52,8 @@ def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX,
         States, algebraic unknowns, time, parameters and constants of a segment.
     ode, alg : casadi.SX
         Derivatives of the states, and residuals.
+    kinks : casadi.SX, optional
+        Next times, after t, at which they have kinks.
     """
     nx, nz = x.numel(), z.numel()
     y, F = ca.vertcat(x, z), ca.vertcat(dense(ode), dense(alg))
@@ -64,6 +70,7 @@ def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX,
     return Equations(
         *(nx, nz, p.numel(), c.numel()),
         *(_tape("values", arguments, F), _tape("slopes", arguments, slopes), None),
+        None if kinks is None or not kinks.numel() else _tape("kinks", arguments, kinks),
         *(start, row, diagonal),
     )
 

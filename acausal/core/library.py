@@ -21,8 +21,14 @@ class TapeData(Structure):
 
     _fields_ = (
         *((name, c_int32) for name in ("constants", "inputs", "results", "runs", "early", "outputs")),
-        *((name, c_void_p) for name in ("constant", "kind", "length", "first", "second", "output")),
+        *((name, c_void_p) for name in ("constant", "kind", "length", "first", "second", "output", "tables")),
     )
+
+
+class TablesData(Structure):
+    """Columns that equations look up, see `core.h`."""
+
+    _fields_ = (("count", c_int32), ("column", c_void_p))
 
 
 class OperationsData(Structure):
@@ -56,6 +62,7 @@ FUNCTIONS = {
     "ac_arrange": (c_int32, (POINTER(OperationsData), POINTER(ArrangedData))),
     "ac_tape_run": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32)),
     "ac_tape_rows": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32, c_void_p, c_void_p, c_void_p, c_void_p)),
+    "ac_share_tables": (None, (POINTER(TablesData),)),
     "ac_lu_make": (c_void_p, (c_int32, c_void_p, c_void_p)),
     "ac_lu_factor": (c_int32, (c_void_p, c_void_p)),
     "ac_lu_solve": (None, (c_void_p, c_void_p)),

@@ -79,6 +79,7 @@ def equations_sections(e: Equations) -> dict[str, bytes]:
         "values": tape_bytes(e.values),
         "slopes": tape_bytes(e.slopes),
         **({"powers": tape_bytes(e.powers)} if e.powers else {}),
+        **({"kinks": tape_bytes(e.kinks)} if e.kinks else {}),
         "pattern": ints(e.start) + ints(e.row) + ints(e.diagonal),
     }
 

@@ -107,6 +107,7 @@ class Content:
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),
             "nominal": floats([self.span, self.tolerance, *self.nominal, *self.problem.loop_scales, *self._follows]),
             "natural": floats(self.nominal[c.nx :]),
+            "tables": floats(np.concatenate([[len(self.given.columns)], *self.given.columns])),
         }
 
     @property

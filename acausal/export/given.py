@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.export.beginning import Beginning
+from acausal.export.local_columns import local_columns
 from acausal.flatten.model_inputs import inputs_of
 from acausal.language.functions import time
 from acausal.symbols import scalars, stacked
@@ -41,6 +42,8 @@ class Given:
         Entry of the start value, by state.
     inputs : tuple of (int, int)
         Entries of each input and its slope.
+    columns : tuple of arrays
+        Columns of tables; entries of tables hold the number of their first one.
     """
 
     symbols: ca.SX
@@ -48,6 +51,7 @@ class Given:
     roles: tuple[Role, ...]
     starts: dict[int, int]
     inputs: tuple[tuple[int, int], ...]
+    columns: tuple[np.ndarray, ...]
 
     def sloped(self, expression: ca.SX) -> ca.SX:
         """Return an expression with inputs extrapolated linearly in time by their slopes."""
@@ -75,12 +79,13 @@ def given(compiled: CompiledModel, p: np.ndarray, beginning: Beginning) -> Given
     own, known = scalars(r.p), inputs_of(compiled.tree)
     inputs = [k for k, s in enumerate(own) if s.element_hash() in known]
     fixed = _fixed(compiled)
-    weighing = set(flat.parameters.weighing)
+    inner = {k for k, name in enumerate(flat.parameters.names) if name in flat.parameters.weighing}
+    numbers, columns = local_columns(getattr(p, "tables", flat.parameters.tables))
     roles = [
         Role.INPUT
         if k in set(inputs)
         else Role.INNER
-        if flat.parameters.names[k] in weighing
+        if k in inner or k in numbers
         else Role.FIXED
         if s.element_hash() in fixed
         else Role.TUNABLE
@@ -91,13 +96,15 @@ def given(compiled: CompiledModel, p: np.ndarray, beginning: Beginning) -> Given
     slopes = [ca.SX.sym(f"slope{k}") for k in inputs]
     since = [ca.SX.sym("since")] if inputs else []
     x = beginning.at.x
-    values = [*p.tolist(), *(float(x[state]) for state in starts), *(0.0 for _ in [*slopes, *since])]
+    own_values = [numbers.get(k, value) for k, value in enumerate(p.tolist())]
+    values = [*own_values, *(float(x[state]) for state in starts), *(0.0 for _ in [*slopes, *since])]
     return Given(
         stacked([r.p, *beginning.starts.values(), *slopes, *since]),
         np.array(values),
         (*roles, *(Role.START for _ in starts), *(Role.INNER for _ in [*slopes, *since])),
         starts,
         tuple((k, first + j) for j, k in enumerate(inputs)),
+        columns,
     )
 
 

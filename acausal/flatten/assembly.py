@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import UnbalancedModelError
-from acausal.flatten.attributes import attributes, unknown_units, weighing
+from acausal.flatten.attributes import attributes, unknown_units
 from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.equation_owner import contradiction_text
@@ -20,10 +20,10 @@ from acausal.flatten.flat_loops import loops_of
 from acausal.flatten.flat_model import (
     FlatEquations,
     FlatModel,
-    FlatParameters,
     FlatUnknowns,
     Initial,
 )
+from acausal.flatten.flat_parameters import flat_parameters
 from acausal.flatten.linear_values import Linear, LinearValues, expressions
 from acausal.flatten.origin import Origin
 from acausal.flatten.part_constraints import rates
@@ -94,15 +94,14 @@ class Assembly:
         """Return the simplified FlatModel."""
         left = self._simplified()
         done, removed = left.done, list(left.done.solved)
-        was = picked(self.symbols, removed)
-        becomes = expressions([left.values[k] for k in removed], self.symbols)
+        eliminated = picked(self.symbols, removed), expressions([left.values[k] for k in removed], self.symbols)
         residuals = ca.vertcat(
-            ca.substitute(self.residuals, was, becomes), expressions([value for value, _ in done.left], self.symbols)
+            ca.substitute(self.residuals, *eliminated), expressions([value for value, _ in done.left], self.symbols)
         )
         return FlatModel(
-            unknowns=self._unknowns(left, (was, becomes)),
-            equations=self._equations(left, residuals, (was, becomes)),
-            parameters=self._parameters(),
+            unknowns=self._unknowns(left, eliminated),
+            equations=self._equations(left, residuals, eliminated),
+            parameters=flat_parameters(self.raw),
             discontinuities=self.discontinuities,
             loops=loops_of(
                 self.raw, set(done.redundant), left.values, left.rows, residuals, self.substitutes, self._rates(left)
@@ -183,18 +182,6 @@ class Assembly:
         """Return the redundant equations that close no loop, each followed by those that eliminated its unknowns."""
         own = [*(Source(row) for row in done.redundant if row not in self.substitutes), *done.repeated]
         return tuple(tuple(dict.fromkeys((self.origins[s.row], *self._eliminating(s, done)))) for s in own)
-
-    def _parameters(self) -> FlatParameters:
-        own = self.raw.build.parameters
-        return FlatParameters(
-            symbols=stacked(own.symbols),
-            names=tuple(own.names),
-            values=np.array(own.values),
-            weighing=weighing(self.raw),
-            limits=tuple(own.limits),
-            bound=own.bound,
-            structural_zeros=tuple(own.structural_zeros),
-        )
 
     def _counts(self, left: _Remaining) -> dict[str, int]:
         done = left.done

@@ -89,6 +89,10 @@ def collect_statements(
         energies = {name: _total(name, components, reuse) for name in ENERGIES}
         pending.place(Origin.of(build.root))
         _check_observed(components)
+        for symbol, table, raised in pending.tables:
+            build.parameters.add_table(symbol, table, raised)
+        discretes += [Discrete(variable, None, build.root) for variable, _ in pending.memories]
+        discrete_values += [start for _, start in pending.memories]
     finally:
         PENDING.reset(token)
     return CollectedStatements(

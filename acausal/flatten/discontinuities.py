@@ -27,14 +27,15 @@ Resolve = Callable[[list[ca.SX]], list[ca.SX]]
 
 @dataclass(frozen=True)
 class Discrete:
-    """A declared discrete variable with its symbols."""
+    """A discrete variable with its symbols; `declared` is None for one without a field."""
 
     expr: Expr
-    declared: f.Variable
+    declared: f.Variable | None
     owner: Component
 
     def start(self) -> ca.SX:
         """Return the initial value, a column; the variables of the owner must exist."""
+        assert self.declared is not None
         given = self.owner._values.get(self.declared.name)
         value = given.value if isinstance(given, f.InitialValue) else f.evaluate(self.declared.start, self.owner)
         given = as_expr(plain(value, self.expr.unit, f"start of `{self.expr.name}`"))
@@ -132,7 +133,7 @@ def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
     """Return the initial values of the discrete variables, a column each."""
     PENDING.get().watches = False
     try:
-        return [with_place(d.start, value_origin(d.owner, d.declared.name)) for d in discretes]
+        return [with_place(d.start, value_origin(d.owner, d.expr.name.rpartition(".")[2])) for d in discretes]
     finally:
         PENDING.get().watches = True
 

@@ -20,8 +20,10 @@ from acausal.language import fields as f
 from acausal.language import quantities, unit_rules
 from acausal.language.call_arguments import declaration_error
 from acausal.language.component import Component
+from acausal.language.driven import Driven, law_of
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time
+from acausal.language.table import Table
 from acausal.language.value_checks import shown
 from acausal.symbols import scalars
 from acausal.units import parse
@@ -35,6 +37,7 @@ DeferredInput = tuple[Component, str, Callable[[], Any], Origin]
 class Parameters:
     """Free parameters of a model, scalar symbols with values, and the limits of all parameters.
 
+    `tables` are the tables by the place of their number; `raised` see `add_table`.
     `structural_zeros` are the names of entries that are exactly 0 and have no symbol; `bound` are the paths of
     parameters that depend on others.
     """
@@ -45,6 +48,16 @@ class Parameters:
     structural_zeros: list[str] = field(default_factory=list)
     bound: dict[str, str] = field(default_factory=dict)
     limits: list[tuple[str, ca.SX, f.Parameter]] = field(default_factory=list)
+    tables: dict[int, Table] = field(default_factory=dict)
+    raised: set[int] = field(default_factory=set)
+
+    def add_table(self, symbol: ca.SX, table: Table, raised: bool) -> None:
+        """Add the number of the first column of a table; `raised` where its derivative is requested."""
+        self.tables[len(self.names)] = table
+        self.raised |= {len(self.names)} if raised else set()
+        self.names.append(symbol.name())
+        self.symbols.append(symbol)
+        self.values.append(float(table.number))
 
 
 class FieldValues:
@@ -147,7 +160,8 @@ class FieldValues:
     def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
         where = f"`{name}` of {self._origin(bound, name).owner}"
         given = quantities.plain(self._specified(bound, name, declared), None, where)
-        return structural_value(bound, declared, given, where)
+        value = structural_value(bound, declared, given, where)
+        return value.at(join(bound._path, name)) if isinstance(value, Table) else value
 
     def _parameter(self, bound: Component, name: str, declared: f.Parameter) -> Expr:
         origin = self._origin(bound, name)
@@ -181,10 +195,13 @@ class FieldValues:
         return expression
 
     def _top_input(self, bound: Component, name: str, declared: f.Variable) -> None:
-        """Set an input of the whole model, which is a free parameter whatever its value."""
+        """Set an input of the whole model: a law, or a free parameter whatever its value."""
         shape, unit = shape_of(declared, bound), unit_of(declared, bound)
         where = f"`{name}` of {self._origin(bound, name).owner}"
         given = self.overrides.pop(name, vars(bound)["_values"].pop(name, self._start(bound, name, declared)))
+        if isinstance(given, Table | Driven):
+            vars(bound)[name] = law_of(given, name, shape, unit)
+            return
         given = quantities.plain(given, unit, where)
         if is_symbolic(given):
             raise DeclarationError(

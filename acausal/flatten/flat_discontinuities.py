@@ -19,4 +19,5 @@ def discontinuities(raw: CollectedStatements, resolved: Any) -> FlatDiscontinuit
         tuple(zip(resolved(raw.pending.differentiated), raw.pending.derivative_origins, strict=True)),
         promises(raw.pending, resolved),
         laws(raw.pending, raw.discretes, resolved),
+        tuple(raw.pending.kinks),
     )

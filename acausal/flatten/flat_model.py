@@ -12,6 +12,7 @@ from acausal.flatten.discontinuities import Guard, Law, Promise
 from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.language.table import Table
 from acausal.symbols import stacked
 from acausal.units import Dimension
 
@@ -174,6 +175,10 @@ class FlatParameters:
         Parameters that depend on others, and the names of these.
     structural_zeros : tuple of str
         Entries that were exactly 0 when compiled and have no symbol.
+    tables : mapping of int to Table
+        Tables by the entries that hold the number of their first column.
+    raised : frozenset of int
+        Those of these entries that stand in der(...).
     """
 
     symbols: ca.SX
@@ -183,6 +188,8 @@ class FlatParameters:
     limits: tuple[tuple[str, ca.SX, f.Parameter], ...]
     bound: Mapping[str, str]
     structural_zeros: tuple[str, ...]
+    tables: Mapping[int, Table]
+    raised: frozenset[int]
 
 
 @dataclass(frozen=True)
@@ -203,6 +210,8 @@ class FlatDiscontinuities:
         Laws that are declared smooth.
     laws : tuple of Law
         Set-valued laws.
+    kinks : tuple of (casadi.SX, casadi.SX)
+        Parameters of tables whose arguments are linear in time, and the next times, after time, of their points.
     """
 
     switches: tuple[ca.SX, ...]
@@ -211,6 +220,7 @@ class FlatDiscontinuities:
     continuous: tuple[tuple[ca.SX, Origin], ...]
     promises: tuple[Promise, ...]
     laws: tuple[Law, ...]
+    kinks: tuple[tuple[ca.SX, ca.SX], ...]
 
     @property
     def constants(self) -> ca.SX:

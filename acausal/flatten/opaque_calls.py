@@ -9,6 +9,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin, value_origin
+from acausal.instructions import LOOKUPS
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import scalars, stacked, vec
 
@@ -35,11 +36,11 @@ def refuse_opaque_expressions(raw: CollectedStatements) -> None:
     everything = _column([*[sx for sx, _ in stated], *others])
     known = [raw.variables, stacked(raw.build.parameters.symbols), _column(_requested(raw))]
     function = ca.Function("all", known, [everything], {"allow_free": True})
-    if function.get_function():
+    if set(function.get_function()) - set(LOOKUPS):
         raise DeclarationError(
             f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function whose operations are unknown, "
-            "such as an interpolant or an external function. Write a table with piecewise((value, condition), ..., "
-            "otherwise), or as a polynomial; call a function of elementary operations with SX, which expands it."
+            "such as an interpolant or an external function. Write a table with table(x, Table(...)); call a function of "
+            "elementary operations with SX, which expands it."
         )
     _refuse_varying(raw)
     if function.has_free():
@@ -123,4 +124,4 @@ def _column(entries: Iterable[ca.SX]) -> ca.SX:
 
 def _calls(expression: ca.SX) -> bool:
     """Return whether an expression contains opaque calls."""
-    return bool(ca.Function("one", [], [expression], {"allow_free": True}).get_function())
+    return bool(set(ca.Function("one", [], [expression], {"allow_free": True}).get_function()) - set(LOOKUPS))

@@ -253,7 +253,13 @@ def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
 
 def _function(stated: list[Stated], kind: type, own: _Arguments, pending: Pending) -> _Template | None:
     """Return statements as a function of the symbols of their component; None for unsuitable ones."""
-    if pending.switches or pending.whens or pending.smooth_steps or not all(isinstance(s, kind) for s, _ in stated):
+    if (
+        pending.switches
+        or pending.whens
+        or pending.smooth_steps
+        or pending.tables
+        or not all(isinstance(s, kind) for s, _ in stated)
+    ):
         return None
     if any(isinstance(s, Soft) for s, _ in stated):
         return None  # soft equations are few and simple

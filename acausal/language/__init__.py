@@ -56,11 +56,14 @@ from acausal.language.functions import (
     time,
 )
 from acausal.language.initial_values import fixed, guess
+from acausal.language.lookup import table
 from acausal.language.numpy_functions import numpy_functions
 from acausal.language.set_valued_statement import SetValued, set_valued
 from acausal.language.soft import Soft, soft
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
+from acausal.language.steps import clip, floor, maximum, minimum, mod
 from acausal.language.symbolic import NUMPY_FUNCTIONS
+from acausal.language.table import Table
 from acausal.language.types import Matrix33, Scalar, Vector3
 from acausal.language.validity_statements import Expectation, Requirement, Separation, apart, expect, require
 from acausal.language.when_statements import When, reinit, when
@@ -90,6 +93,7 @@ __all__ = [
     "Separation",
     "SetValued",
     "Soft",
+    "Table",
     "Vector3",
     "When",
     "acos",
@@ -99,6 +103,7 @@ __all__ = [
     "atan2",
     "branch",
     "chain",
+    "clip",
     "connect",
     "connected",
     "cos",
@@ -111,6 +116,7 @@ __all__ = [
     "expect",
     "feedback",
     "fixed",
+    "floor",
     "flow",
     "guess",
     "in_loop",
@@ -118,6 +124,9 @@ __all__ = [
     "input",
     "is_root",
     "log",
+    "maximum",
+    "minimum",
+    "mod",
     "observed",
     "outer",
     "output",
@@ -143,6 +152,7 @@ __all__ = [
     "sqrt",
     "step",
     "structural",
+    "table",
     "tan",
     "tanh",
     "time",

@@ -12,7 +12,7 @@ import casadi as ca
 from acausal.errors import DeclarationError
 from acausal.language.condition import Condition
 from acausal.language.when_statements import When
-from acausal.symbols import Distinct, vec
+from acausal.symbols import Distinct, scalars, vec
 
 
 class Pending:
@@ -26,6 +26,9 @@ class Pending:
     `differentiated` contains the operands of der() that depend on switches, `derivative_origins` their origins.
     `smooth_steps` contains (condition, step, value) of smooth laws, `smooth_origins` their origins: where the condition
     changes, the step between two cases should be 0.
+    `tables` contains (symbol, table, raised): the symbol of the number of its first column, another one within der();
+    `kinks` contains (symbol, time): the next point, after time, of a table of time. `memories` contains
+    (variable, start) of discrete variables without a field.
     """
 
     def __init__(self) -> None:
@@ -41,6 +44,10 @@ class Pending:
         self.derivative_origins: list[Any] = []
         self.smooth_steps: list[tuple[Condition, ca.SX, ca.SX]] = []
         self.smooth_origins: list[Any] = []
+        self.tables: list[tuple[ca.SX, Any, bool]] = []
+        self.kinks: list[tuple[ca.SX, ca.SX]] = []
+        self.memories: list[tuple[Any, ca.SX]] = []
+        self._unplaced: list[When] = []
         self._conditions = Distinct()
         self._switching: set[int] = set()
 
@@ -59,6 +66,8 @@ class Pending:
         self.switch_origins += [origin] * (len(self.switches) - len(self.switch_origins))
         self.derivative_origins += [origin] * (len(self.differentiated) - len(self.derivative_origins))
         self.smooth_origins += [origin] * (len(self.smooth_steps) - len(self.smooth_origins))
+        self.whens += [(when, origin) for when in self._unplaced]
+        self._unplaced.clear()
 
     def add_smooth_law(self, conditions: list[Condition], laws: list[ca.SX], value: ca.SX) -> None:
         """Record the steps of a smooth law between consecutive cases, 0 where an earlier case holds."""
@@ -73,13 +82,47 @@ class Pending:
             self.smooth_steps.append((condition, vec(ca.if_else(hidden, 0, step)), vec(value)))
             hidden = ca.logic_or(hidden, holds)
 
+    def table(self, data: Any, raised: bool = False) -> ca.SX:
+        """Return the symbol of the number of the first column of a table; another one within der()."""
+        known = next((symbol for symbol, *own in self.tables if own[0] is data and own[1] == raised), None)
+        if known is None:
+            name = data.path or f"table {len(self.tables) + 1}"
+            self.tables.append((known := ca.SX.sym(f"der of {name}" if raised else name), data, raised))
+        return known
+
+    def remember(self, variables: list[Any], starts: list[ca.SX], *whens: When) -> None:
+        """Add discrete variables without a field, and what changes them."""
+        self.memories += zip(variables, starts, strict=True)
+        own = {variable.sx.element_hash() for variable in variables}
+        self.discrete |= own
+        self.varying = self.varying | own
+        self._unplaced += whens
+
     def differentiate(self, x: ca.SX) -> ca.SX:
         """Return a placeholder for the derivative of an expression."""
         placeholder = ca.SX.sym("der", *x.shape)
+        x = self._with_raised_tables(x) if self.tables else x
         self.derivatives.append((placeholder, x))
         if any(s.element_hash() in known for s in ca.symvar(x) for known in (self.discrete, self._switching)):
             self.differentiated.append(x)
         return placeholder
+
+    def _with_raised_tables(self, x: ca.SX) -> ca.SX:
+        """Return an operand of der() with symbols of its own for tables, by which reduction tells their derivatives."""
+        inside = {s.element_hash() for s in ca.symvar(x)}
+        within = [
+            e for placeholder, e in self.derivatives if any(s.element_hash() in inside for s in scalars(placeholder))
+        ]
+        inside |= {s.element_hash() for e in within for s in ca.symvar(e)}
+        for symbol, data, raised in [own for own in self.tables if own[0].element_hash() in inside]:
+            if raised and data.kind == "linear":
+                raise DeclarationError(
+                    f'der(der(...)) of {data!r} is infinite at its points. Give it kind="akima" or "cubic".'
+                )
+            above = symbol if raised else self.table(data, raised=True)
+            x = ca.substitute(x, symbol, above)
+            self.kinks += [(above, ca.substitute(after, symbol, above)) for own, after in self.kinks if own is symbol]
+        return x
 
 
 def truth(condition: Condition) -> ca.SX:

@@ -10,7 +10,7 @@ from acausal.flatten import FlatModel
 from acausal.language.functions import feedback
 from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
-from acausal.symbols import scalars, stacked
+from acausal.symbols import inlined, scalars, stacked
 
 
 @dataclass(frozen=True)
@@ -124,5 +124,5 @@ def _unprojected(
         return column, ca.SX(0, 1)
     symbols = ca.vertcat(*[elements[v] for v, _ in pairs])
     values = solve_explicit(pairs, residuals, explicit, elements, plan)
-    definitions, others = ca.substitute_inplace([symbols], [values], [column])
-    return others[0], definitions[0]
+    definitions, others = inlined(symbols, values, [column])
+    return others[0], definitions

@@ -14,8 +14,9 @@ from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.flat_incidence import Incidence, jacobian, system_of
 from acausal.reduce.input_derivatives import refuse_differentiated_inputs
 from acausal.reduce.reduced_model import ReducedModel
+from acausal.reduce.tables import table_kinks
 from acausal.structure import Plan, StructuralSingularity, Subsystem, analyse
-from acausal.symbols import scalars
+from acausal.symbols import inlined, scalars
 
 
 def plan_of(flat: FlatModel) -> tuple[Plan, Incidence]:
@@ -81,13 +82,25 @@ def reduce(flat: FlatModel, plan: Plan, linear: Incidence) -> ReducedModel:
     alg = ca.vertcat(*[residuals[k] for k in plan.residuals])
     assigned, values = solved(plan.assigned)
     if plan.assigned:
-        values, ode, alg = _inline(assigned, values, ode, alg)
+        values, (ode, alg) = inlined(assigned, values, [ode, alg])
     observed = solved(plan.observed)
     definitions = ca.vertcat(assigned, observed[0]), ca.vertcat(values, observed[1])
     continuous = flat.discontinuities.continuous + _switching(flat, plan, residuals)
     names = _names(flat, plan)
     return ReducedModel(
-        flat, plan, unknowns, names, x, z, ode, alg, definitions, projections, continuous, tuple(residuals)
+        flat,
+        plan,
+        unknowns,
+        names,
+        x,
+        z,
+        ode,
+        alg,
+        definitions,
+        projections,
+        continuous,
+        tuple(residuals),
+        table_kinks(flat, plan),
     )
 
 
@@ -119,11 +132,6 @@ def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:
     for p in plan.constrained.projections:
         names[p.state], names[p.state_rate] = names[p.coordinate], f"der({names[p.coordinate]}) integrated"
     return tuple(names)
-
-
-def _inline(symbols: ca.SX, values: ca.SX, ode: ca.SX, alg: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
-    definitions, others = ca.substitute_inplace([symbols], [values], [ode, alg])
-    return definitions[0], others[0], others[1]
 
 
 def _differentiate(

@@ -13,6 +13,7 @@ from acausal.language.functions import feedback, initial
 from acausal.reduce.constrain import Projections
 from acausal.reduce.dependence import Dependence
 from acausal.structure import Plan
+from acausal.symbols import inlined
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,8 @@ class ReducedModel:
         Differentiated expressions that depend on switches: they must not jump.
     residuals : tuple of casadi.SX
         Residuals of the extended system before substitution.
+    kinks : casadi.SX
+        Next times, after time, at which equations have kinks, in parameters and time.
     """
 
     flat: FlatModel
@@ -78,6 +81,7 @@ class ReducedModel:
     projections: Projections
     continuous: tuple[tuple[ca.SX, Origin], ...]
     residuals: tuple[ca.SX, ...]
+    kinks: ca.SX
 
     @property
     def p(self) -> ca.SX:
@@ -114,7 +118,7 @@ class ReducedModel:
     def _resolved(self) -> ca.SX:
         """Definitions in terms of x, z, parameters and time."""
         symbols, expressions = self.definitions
-        return ca.substitute_inplace([symbols], [expressions], [])[0][0] if symbols.numel() else expressions
+        return inlined(symbols, expressions, [])[0] if symbols.numel() else expressions
 
     def resolve(self, expression: ca.SX, unprojected: bool = False) -> ca.SX:
         """Return an expression of the model in x, z, parameters and time.

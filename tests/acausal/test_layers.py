@@ -23,7 +23,7 @@ BASE = {
     "units",
 }
 MAY = {
-    "language": BASE,
+    "language": BASE | {"core"},
     "flatten": BASE | {"language"},
     "structure": {"errors"},
     "reduce": BASE | {"language", "flatten", "structure"},

@@ -28,8 +28,19 @@ enum {
     AC_ADD, AC_SUB, AC_MUL, AC_DIV, AC_NEG, AC_SQ, AC_TWICE, AC_INV, AC_SQRT, AC_SIN, AC_COS, AC_TAN, AC_ASIN, AC_ACOS,
     AC_ATAN, AC_ATAN2, AC_EXP, AC_LOG, AC_POW, AC_SINH, AC_COSH, AC_TANH, AC_ASINH, AC_ACOSH, AC_ATANH, AC_FABS, AC_SIGN,
     AC_FLOOR, AC_CEIL, AC_FMOD, AC_REMAINDER, AC_COPYSIGN, AC_FMIN, AC_FMAX, AC_HYPOT, AC_LOG1P, AC_EXPM1, AC_ERF, AC_LT,
-    AC_LE, AC_EQ, AC_NE, AC_NOT, AC_AND, AC_OR, AC_IF, AC_ASSIGN, AC_OPERATIONS
+    AC_LE, AC_EQ, AC_NE, AC_NOT, AC_AND, AC_OR, AC_IF, AC_ASSIGN, AC_FIND, AC_LOAD, AC_OPERATIONS
 };
+
+/* Columns by their numbers: how many numbers follow, then these; NULL where there is none any more. */
+typedef struct {
+    int32_t count;
+    const double *const *column;
+} ac_tables;
+
+double ac_find(const ac_tables *t, double x, double number, double last);
+double ac_load(const ac_tables *t, double place, double number);
+AC_PUBLIC void ac_share_tables(const ac_tables *tables); /* those of this process; they have to stay */
+const ac_tables *ac_shared_tables(void);
 
 /* A list of operations on an array w: constants, inputs, then the results in their order.
    Operations of one kind stand together in runs. The first `early` runs need parameters and constants of a segment alone. */
@@ -39,6 +50,7 @@ typedef struct {
     const int32_t *kind, *length;               /* (runs) */
     const int32_t *first, *second;              /* (results) arguments, places in w */
     const int32_t *output;                      /* (outputs) places in w */
+    const ac_tables *tables;                    /* that AC_FIND and AC_LOAD look up; NULL for none */
 } ac_tape;
 
 size_t ac_tape_length(const ac_tape *tape); /* of w, and one more: never 0 */
@@ -96,6 +108,7 @@ typedef struct {
     const ac_tape *values;      /* f, g */
     const ac_tape *slopes;      /* d(f, g)/d(x, z), of the sparsity below; then d(f, g)/dt where they depend on time */
     const ac_tape *powers;      /* what is integrated besides, NULL for nothing */
+    const ac_tape *kinks;       /* next times, after t, at which they have kinks, NULL for none */
     const int32_t *start, *row; /* sparsity in columns, the diagonal of the states included */
     const int32_t *diagonal;    /* (nx) places of that diagonal */
 } ac_equations;

@@ -13,12 +13,14 @@ typedef struct {
 } ac_section;
 
 /* The sections that both kinds of files have, first. */
-enum { AC_NUMBERS, AC_VALUES, AC_SLOPES, AC_POWERS, AC_PATTERN, AC_START, AC_SIZES, AC_RATES, AC_NAMES, AC_SECTIONS };
+enum { AC_NUMBERS, AC_VALUES, AC_SLOPES, AC_POWERS, AC_KINKS, AC_PATTERN, AC_START, AC_SIZES, AC_RATES, AC_NAMES, AC_SECTIONS };
+
+#define AC_EQUATION_TAPES (AC_PATTERN - AC_VALUES)
 
 /* What a model is read into: the tapes stand beside it. */
 typedef struct {
     ac_model model;
-    ac_tape tape[3];
+    ac_tape tape[AC_EQUATION_TAPES];
 } ac_model_parts;
 
 int32_t ac_file_outside(const unsigned char *bytes, size_t length, uint32_t version);

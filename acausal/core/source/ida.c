@@ -57,6 +57,7 @@ typedef struct {
     double *shift;                /* (n) of the states since it was started: what IDA integrates is y less that */
     double *matrix, cj;           /* cj: of the matrix whose factors stand in the LU */
     int begun, order;             /* order: of the last step */
+    double stop;                  /* no step leads beyond; NAN before it is set */
     double origin, from, time;    /* where it began; since then: the ends of the last step, as times late in a run are coarse */
     int64_t refused;              /* steps before the last restart */
     long errors, unsolved;        /* of those since, by the error test, and as the equations could not be solved */
@@ -179,8 +180,8 @@ static int start(ac_ida *i) {
     TRY(ida.IDASetMaxOrd(i->mem, q->order));
     TRY(ida.IDASetInitStep(i->mem, first_step(i)));
     TRY(ida.IDASetNonlinConvCoef(i->mem, q->newton));
-    i->begun = 1;
-    return ida.IDASetStopTime(i->mem, ac_end(s) - s->t); /* dropped where it is reached */
+    i->begun = 1, i->stop = NAN;
+    return 0;
 }
 
 static int32_t reason(int flag) {
@@ -209,11 +210,13 @@ static int32_t advance(ac_stepper *s) {
     ac_ida *i = (ac_ida *)s;
     int flag = i->begun ? 0 : start(i);
     double time = s->t;
+    const double end = ac_step_end(s);
+    if (flag >= 0 && end != i->stop) flag = ida.IDASetStopTime(i->mem, (i->stop = end) - i->origin); /* dropped where it is reached */
     for (int tries = 0; flag >= 0 && time <= s->t && tries < MOST_SHORT; tries++) {
         i->from = i->time;
-        flag = ida.IDASolve(i->mem, ac_end(s) - i->origin, &i->time, i->y, i->yp, ONE_STEP);
+        flag = ida.IDASolve(i->mem, end - i->origin, &i->time, i->y, i->yp, ONE_STEP);
         count(i);
-        time = flag == STOPPED ? ac_end(s) : i->origin + i->time;
+        time = flag == STOPPED ? end : i->origin + i->time;
     }
     if (flag < 0) return reason(flag);
     if (time <= s->t) return i->why;

@@ -72,6 +72,8 @@ struct ac_unit {
     const char *origin;                     /* of each expression that is differentiated, each with a 0 at its end; then the remedy */
     double span, tolerance;
     const char *token;
+    ac_tables tables;
+    const double **column;                  /* (tables.count) columns of the file; NULL where it has none */
     double file[];
 };
 

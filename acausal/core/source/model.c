@@ -6,7 +6,7 @@
 
 #define VERSION 1
 
-static const char TAG[AC_SECTIONS][AC_TAG + 1] = {"numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names"};
+static const char TAG[AC_SECTIONS][AC_TAG + 1] = {"numbers", "values", "slopes", "powers", "kinks", "pattern", "start", "sizes", "rates", "names"};
 
 /* A model in one piece of memory, with the file that its arrays stand in. */
 typedef struct {
@@ -69,11 +69,11 @@ int ac_read_parts(const ac_section *found, ac_model_parts *parts) {
     }
     const int32_t n = e->nx + e->nz, entries = e->start[n], varying = n + 1;
     const ac_tape *t = parts->tape;
-    for (int k = 0; k < 3; k++) {
-        if (k == 2 && !found[AC_POWERS].at) break;
+    for (int k = 0; k < AC_EQUATION_TAPES; k++) {
+        if (AC_VALUES + k >= AC_POWERS && !found[AC_VALUES + k].at) continue;
         if (!ac_read_tape(found[AC_VALUES + k], varying + e->np + e->nc, 0, varying, &parts->tape[k])) return 0;
     }
-    e->values = t, e->slopes = t + 1, e->powers = found[AC_POWERS].at ? t + 2 : NULL;
+    e->values = t, e->slopes = t + 1, e->powers = found[AC_POWERS].at ? t + 2 : NULL, e->kinks = found[AC_KINKS].at ? t + 3 : NULL;
     return t[0].outputs == n && (t[1].outputs == entries || t[1].outputs == entries + n) && (!e->powers || t[2].outputs <= 2);
 }
 

@@ -213,7 +213,7 @@ static void interpolate(ac_stepper *s) {
 static int32_t advance(ac_stepper *s) {
     ac_rodas *r = (ac_rodas *)s;
     if (!r->begun) start(r);
-    const double left = ac_end(s) - s->t;
+    const double left = ac_step_end(s) - s->t, tried = r->h;
     const int last = r->h >= left * (1 - 1e-10);
     const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : measured(r->h);
     if (!(h > shortest(r))) return r->pace.unsolved ? AC_UNSOLVED : AC_SHORT;
@@ -238,10 +238,11 @@ static int32_t advance(ac_stepper *s) {
         r->h = h * fmax(LEAST, fmin(change, SAFETY));
         return AC_MORE;
     }
-    ac_accept(s, last ? ac_end(s) : s->t + h, h);
+    ac_accept(s, last ? ac_step_end(s) : s->t + h, h);
     double *const before = r->here;
     r->here = r->there, r->there = before;
     r->h = h * fmax(LEAST, fmin(change, r->pace.refused ? 1 : r->pace.slow ? SLOWLY : MOST));
+    if (last && s->t < ac_end(s)) r->h = fmax(r->h, tried); /* a kink has cut it */
     r->pace.slow -= r->pace.slow > 0, r->pace.bent -= r->pace.bent > 0;
     r->pace.refused = 0;
     r->stale = 1;

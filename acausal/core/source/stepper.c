@@ -1,21 +1,25 @@
 /* What all steppers share: the loop over steps, values at outputs, integrals, and steps that are kept. */
 #include "stepper.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#define SAME (8 * DBL_EPSILON) /* of a time: what rounding makes of the times of kinks */
+
 double *ac_stepper_take(ac_stepper *s, const ac_method *method, const ac_equations *equations, size_t more) {
     const ac_equations *e = &s->of;
     s->method = method, s->of = *equations, s->n = e->nx + e->nz;
-    const ac_tape *tapes[] = {e->values, e->slopes, e->powers};
-    double **arrays[] = {&s->values, &s->slopes, &s->powers};
+    const ac_tape *tapes[] = {e->values, e->slopes, e->powers, e->kinks};
+    double **arrays[] = {&s->values, &s->slopes, &s->powers, &s->kinks};
+    const int count = sizeof tapes / sizeof *tapes;
     const size_t n = (size_t)s->n + 1;
     size_t length = (3 + (size_t)method->rows) * n + more;
-    for (int k = 0; k < 3; k++) length += tapes[k] ? ac_tape_length(tapes[k]) : 0;
+    for (int k = 0; k < count; k++) length += tapes[k] ? ac_tape_length(tapes[k]) : 0;
     double *at = s->block = calloc(length, sizeof *at);
     if (!at) return NULL;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < count; k++) {
         *arrays[k] = at;
         if (!tapes[k]) continue;
         memcpy(at, tapes[k]->constant, (size_t)tapes[k]->constants * sizeof *at);
@@ -56,6 +60,19 @@ void ac_equations_at(ac_stepper *s, const double *y, double t, double *found) {
     s->progress.values++;
 }
 
+/* Find the next kink, at a time that rounding does not bring before it. */
+static void find_kink(ac_stepper *s) {
+    const ac_tape *tape = s->of.kinks;
+    const double near = SAME * fabs(s->t);
+    s->kink = INFINITY;
+    if (!tape) return;
+    ac_evaluate_tape(s, tape, s->kinks, s->y, s->t + near);
+    for (int32_t k = 0; k < tape->outputs; k++) {
+        const double next = s->kinks[tape->output[k]];
+        if (next + near > s->t + near && next + near < s->kink) s->kink = next + near;
+    }
+}
+
 static void put(ac_stepper *s, const double *x, const double *z) {
     if (s->of.nx) memcpy(s->y, x, (size_t)s->of.nx * sizeof *x);
     if (s->of.nz) memcpy(s->y + s->of.nx, z, (size_t)s->of.nz * sizeof *z);
@@ -69,9 +86,11 @@ void ac_stepper_begin(ac_stepper *s, const ac_request *request, const double *x,
     prepare(s, s->of.values, s->values, p, c);
     prepare(s, s->of.slopes, s->slopes, p, c);
     prepare(s, s->of.powers, s->powers, p, c);
+    prepare(s, s->of.kinks, s->kinks, p, c);
     s->t = s->progress.time = request->time[0];
     s->gathered[0] = s->gathered[1] = 0;
     s->written_at = 0;
+    find_kink(s);
     s->method->begin(s);
 }
 
@@ -86,11 +105,14 @@ void ac_stepper_allow(ac_stepper *s, int64_t most) { s->request.most = most; }
 
 double ac_end(const ac_stepper *s) { return s->request.time[s->request.outputs]; }
 
+double ac_step_end(const ac_stepper *s) { return fmin(ac_end(s), s->kink); }
+
 void ac_accept(ac_stepper *s, double time, double length) {
     double *const before = s->y;
     s->y = s->next, s->next = before;
     s->last.from = s->t, s->last.length = length, s->last.before = before, s->last.after = s->y;
     s->t = time;
+    if (s->t >= s->kink) find_kink(s);
 }
 
 void ac_interpolate(int32_t n, int32_t rows, const double *before, const double *after, const double *dense, double s, int32_t first,

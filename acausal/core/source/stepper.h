@@ -70,7 +70,8 @@ struct ac_stepper {
     ac_equations of;
     int32_t n;                          /* unknowns */
     double *block;                      /* all the memory */
-    double *values, *slopes, *powers;   /* arrays of the tapes */
+    double *values, *slopes, *powers, *kinks; /* arrays of the tapes */
+    double kink;                        /* next time at which the equations have one; infinite for none */
     double t, *y, *next;                /* where it is; where a step leads, then where the last one came from */
     double *work;                       /* (n) */
     double gathered[2];                 /* integrals of the powers */
@@ -94,6 +95,7 @@ double *ac_stepper_take(ac_stepper *s, const ac_method *method, const ac_equatio
 void ac_evaluate_tape(const ac_stepper *s, const ac_tape *tape, double *w, const double *y, double t);
 void ac_equations_at(ac_stepper *s, const double *y, double t, double *found);
 double ac_end(const ac_stepper *s);
+double ac_step_end(const ac_stepper *s); /* no step leads beyond: the end or the next kink */
 void ac_accept(ac_stepper *s, double time, double length);
 
 #define AC_NODES 4

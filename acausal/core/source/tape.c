@@ -19,7 +19,7 @@
     break
 
 /* Results of a run never lie where its arguments do not stand before them: in order, one after the other. */
-static void run(int32_t kind, int32_t n, const double *w, const int32_t *a, const int32_t *b, double *r) {
+static void run(const ac_tables *tables, int32_t kind, int32_t n, const double *w, const int32_t *a, const int32_t *b, double *r) {
     switch (kind) {
     case AC_ADD: PAIRS(x + y);
     case AC_SUB: PAIRS(x - y);
@@ -68,6 +68,8 @@ static void run(int32_t kind, int32_t n, const double *w, const int32_t *a, cons
     case AC_OR: PAIRS(x != 0 || y != 0);
     case AC_IF: PAIRS(x != 0 ? y : 0);
     case AC_ASSIGN: EACH(x);
+    case AC_FIND: PAIRS(ac_find(tables, x, y, r[k])); /* from where it was in the evaluation before */
+    case AC_LOAD: PAIRS(ac_load(tables, x, y));
     default: break;
     }
 }
@@ -80,7 +82,7 @@ void ac_tape_run(const ac_tape *t, double *w, int32_t from, int32_t to) {
     for (int32_t k = 0; k < from; k++) done += t->length[k];
     for (int32_t k = from; k < to; k++) {
         const int32_t n = t->length[k];
-        run(t->kind[k], n, w, t->first + done, t->second + done, w + t->constants + t->inputs + done);
+        run(t->tables, t->kind[k], n, w, t->first + done, t->second + done, w + t->constants + t->inputs + done);
         done += n;
     }
 }

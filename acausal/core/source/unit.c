@@ -5,21 +5,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 7
+#define VERSION 8
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, TAPES = SQUARE + 3 * AC_SQUARES, ROW_TAPES = TAPES + AC_TAPES,
     RULES = ROW_TAPES + AC_ROW_TAPES, JUMPS_TO, SCALE_PATTERN, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
-    DAMPED, NOMINAL, NATURAL, TOKEN, ORIGINS, LAWS_TO, LAW_PATTERNS, SECTIONS
+    DAMPED, NOMINAL, NATURAL, TOKEN, ORIGINS, LAWS_TO, LAW_PATTERNS, TABLES, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
-    "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
+    "numbers", "values", "slopes", "powers", "kinks", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "settleof", "begin", "beginat", "beginof", "needed", "neededat", "neededof", "power", "powerat", "powerof",
     "moving", "movingat", "movingof", "head", "shown", "guards", "scales", "timed", "instants", "jumps", "closing", "coords", "limits", "laws", "unbroken",
     "watched",
     "energies",
     "rules", "jumpsto", "scalesat", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
-    "token", "origins", "lawsto", "lawsat",
+    "token", "origins", "lawsto", "lawsat", "tables",
 };
 
 const char *ac_unit_why(int32_t why) {
@@ -211,10 +211,41 @@ static int read_numbers(const ac_section *found, ac_unit *u) {
         && positive(u->size, e->nz) && token.at && token.left && !token.at[token.left - 1];
 }
 
+/* Whether a count of numbers fits in what is left of a section. */
+static int counts(const double *count, const ac_section *s) {
+    return count && *count >= 0 && *count <= (double)(s->left / sizeof *count) && *count == floor(*count);
+}
+
+/* Columns of tables: how many, then of each how many numbers, and these. Without the section they are those of this process. */
+static int read_tables(ac_section s, ac_unit *u) {
+    if (!s.at) {
+        if (ac_shared_tables()) u->tables = *ac_shared_tables();
+        return 1;
+    }
+    const double *count = ac_take(&s, 1, sizeof *count);
+    if (!counts(count, &s)) return 0;
+    u->tables.count = (int32_t)*count;
+    if (!(u->column = calloc((size_t)u->tables.count + 1, sizeof *u->column))) return 0;
+    for (int32_t k = 0; k < u->tables.count; k++) {
+        const double *numbers = u->column[k] = ac_take(&s, 1, sizeof *numbers);
+        if (!counts(numbers, &s)) return 0;
+        ac_take(&s, (int64_t)*numbers, sizeof *numbers);
+    }
+    u->tables.column = u->column;
+    return !s.left;
+}
+
+static void bind_tables(ac_unit *u) {
+    for (int k = 0; k < AC_EQUATION_TAPES; k++) u->parts.tape[k].tables = &u->tables;
+    for (int k = 0; k < AC_TAPES; k++) u->tape[k].tables = &u->tables;
+    for (int k = 0; k < AC_SQUARES; k++) u->squared[k].tables = &u->tables;
+    for (int k = 0; k < AC_ROW_TAPES; k++) u->row_tape[k].tables = &u->tables;
+}
+
 static int read_all(const ac_section *found, ac_unit *u) {
     return ac_read_parts(found, &u->parts) && !u->parts.model.equations.powers && read_layout(found, u) && read_tapes(found, u)
         && read_squares(found, u) && read_rules(found, u) && read_laws(found, u) && read_closing(found, u)
-        && read_limits(found, u) && read_numbers(found, u);
+        && read_limits(found, u) && read_numbers(found, u) && read_tables(found[TABLES], u);
 }
 
 /* Read a unit; NULL where the bytes are none, and why. */
@@ -228,12 +259,16 @@ ac_unit *ac_unit_read(const void *bytes, size_t length, int32_t *why) {
     }
     memset(u, 0, sizeof *u);
     memcpy(u->file, bytes, length);
-    if (ac_file_split((const unsigned char *)u->file, length, TAG, SECTIONS, found) && read_all(found, u)) return u;
+    if (ac_file_split((const unsigned char *)u->file, length, TAG, SECTIONS, found) && read_all(found, u)) {
+        bind_tables(u);
+        return u;
+    }
     *why = AC_CONTENT;
     ac_unit_free(u);
     return NULL;
 }
 
 void ac_unit_free(ac_unit *unit) {
+    if (unit) free(unit->column);
     free(unit);
 }

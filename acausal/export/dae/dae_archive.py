@@ -14,7 +14,7 @@ from acausal.errors import DeclarationError
 from acausal.export.archive import write_archive
 from acausal.result import document, shown_name
 
-FORMAT, VERSION = "acausal open DAE", 3
+FORMAT, VERSION = "acausal open DAE", 4
 FIRST = "dae.json"
 ARRAYS = ("constants", "operations", "places")
 MEMBERS = ("model.json", "model.mo", *ARRAYS)

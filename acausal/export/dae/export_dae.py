@@ -18,6 +18,7 @@ from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.dae_listing import listing
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.json_values import encoded
+from acausal.export.local_columns import local_columns
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
@@ -57,11 +58,16 @@ def export_dae(
     """
     check_writable(path)
     compiled, p = ready(model, parameters)
+    tables = getattr(p, "tables", {})
+    own = replace(compiled.reduced.flat.parameters, tables=tables)
+    reduced = replace(compiled.reduced, flat=replace(compiled.reduced.flat, parameters=own))
+    numbers, columns = local_columns(tables)
+    p = np.array([numbers.get(k, value) for k, value in enumerate(p.tolist())])
     writer = Writer()
     kept, unchecked = _stated(compiled)
     values = component_tree.evaluated(compiled.tree)
     inside = {
-        "model": encoded(compiled.reduced, writer.add),
+        "model": encoded(reduced, writer.add),
         "values": encoded(p, writer.add),
         "tree": component_tree.encode_tree(compiled.tree, values, kept, writer.add),
         "settings": {name: encoded(value, writer.add) for name, value in declared_settings(compiled).items()},
@@ -75,6 +81,7 @@ def export_dae(
         "model": type(compiled.tree).__name__,
         "description": first_line(type(compiled.tree)),
         **described,
+        "columns": [column[1:].tolist() for column in columns],
         "unchecked": unchecked,
         "operations": list(NAMES),
         "symbols": operations.symbols,

@@ -9,10 +9,11 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from acausal.core.lookups import find, load
 from acausal.core.tape import KIND, KINDS
 from acausal.errors import ExportError
 from acausal.garbage import uncollected
-from acausal.instructions import CONSTANT, READABLE, read_instructions
+from acausal.instructions import CONSTANT, FIND, LOAD, READABLE, read_instructions
 from acausal.symbols import stacked
 
 INT, FLOAT = np.dtype("<i4"), np.dtype("<f8")
@@ -70,6 +71,7 @@ NAMES = (
         "erf",
     ),
     *("less", "less_equal", "equal", "not_equal", "logical_not", "logical_and", "logical_or", "if_else_zero", "assign"),
+    *("find", "load"),
 )
 
 
@@ -171,7 +173,10 @@ class Reader:
         unary, binary = ca.SX.unary, ca.SX.binary
         for kind, first, second in given.operations.tolist():
             op = KINDS[kind]
-            values.append(unary(op, values[first]) if kind in UNARY else binary(op, values[first], values[second]))
+            if op in (FIND, LOAD):
+                values.append((find if op == FIND else load)(values[first], values[second]))
+            else:
+                values.append(unary(op, values[first]) if kind in UNARY else binary(op, values[first], values[second]))
         self._column = stacked([values[k] for k in given.places.tolist()])
         self._shapes = given.shapes
         self._starts = np.cumsum([0, *(_size(s) for s in given.shapes)]).tolist()

@@ -26,6 +26,7 @@ from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.condition import Condition, Joined
 from acausal.language.expression import Expr
+from acausal.language.table import Table
 from acausal.language.validity_statements import Expectation, Requirement, Separation
 from acausal.reduce import ReducedModel
 from acausal.reduce.constrain import Projections
@@ -44,8 +45,8 @@ FIELDS: dict[type, str] = {
     Loop: "a b where parts constraints dropped undetermined kind",
     FlatUnknowns: "symbols names derivative declared preference nominal sized units start guessed eliminated",
     FlatEquations: "residuals origins defines initial redundant",
-    FlatParameters: "symbols names values weighing limits bound structural_zeros",
-    FlatDiscontinuities: "switches guards discretes continuous promises laws",
+    FlatParameters: "symbols names values weighing limits bound structural_zeros tables raised",
+    FlatDiscontinuities: "switches guards discretes continuous promises laws kinks",
     FlatLoops: "cuts closures folded",
     FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts",
     Guard: "condition origin jumps at_start",
@@ -59,7 +60,7 @@ FIELDS: dict[type, str] = {
     Constraint: "base rows multipliers top",
     Projection: "coordinate rate state state_rate multipliers",
     Projections: "constraints choice coordinates states following moves",
-    ReducedModel: "flat plan unknowns names x z ode alg definitions projections continuous residuals",
+    ReducedModel: "flat plan unknowns names x z ode alg definitions projections continuous residuals kinks",
     Condition: "excess kind",
     Joined: "a b every",
     Expr: "sx unit name shape",
@@ -68,6 +69,7 @@ FIELDS: dict[type, str] = {
     Separation: "offset rate effect text",
     f.Parameter: "description minimum positive",
     f.InitialValue: "value fixed",
+    Table: "x values kind extrapolation ends",
 }
 _CLASS = {cls.__name__: cls for cls in FIELDS}
 _FILES = {Origin: "where", Loop: "where"}
@@ -93,7 +95,7 @@ def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
         return value if np.isfinite(value) else {"number": repr(value)}
     if isinstance(value, ca.SX | ca.DM):  # an empty CasADi expression may be a DM
         return {"expression": add(value)}
-    if isinstance(value, np.ndarray) and value.ndim == 1:
+    if isinstance(value, np.ndarray) and value.ndim:
         return {"array": value.dtype.kind, "entries": [encoded(v, add) for v in value.tolist()]}
     if isinstance(value, tuple):
         return [encoded(v, add) for v in value]

@@ -69,7 +69,9 @@ def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedMode
         raise ValueError("there is no model")
     more["FlatModel"] = {"tree": root}
     reduced = decode(inside["model"])
-    reduced.flat.parameters.values[:] = decode(inside["values"])
+    own = reduced.flat.parameters
+    own.values[:] = decode(inside["values"])
+    own.values[list(own.tables)] = [table.number for table in own.tables.values()]
     return reduced, {name: decode(data) for name, data in inside["settings"].items()}
 
 

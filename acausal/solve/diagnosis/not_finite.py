@@ -20,6 +20,7 @@ from acausal.symbols import scalars
 
 CAUSES = POLICY.causes
 RANGE = ", which must lie between -1 and 1"
+BEYOND = "looks up {} in a table that ends before, and refuses to extrapolate"
 WORDS = {
     ca.OP_DIV: "divides by {}",
     ca.OP_INV: "divides by {}",
@@ -142,20 +143,28 @@ def operation(row: Row, probe: Probe) -> tuple[str, Any]:
             nodes.append(node)
         elif node.element_hash() not in seen and not node.is_constant():
             seen.add(node.element_hash())
-            stack += [(node, True), *((node.dep(k), False) for k in range(node.n_dep()))]
+            stack += [(node, True), *((part, False) for part in _operands(node))]
     for node in nodes:
-        parts = [node.dep(k) for k in range(node.n_dep())]
+        parts = _operands(node)
         function = Call(ca.Function("node", probe.whole.arguments, [ca.densify(ca.vertcat(node, *parts))]))
         value, *inner = function(*probe.arguments)[0].tolist()
         if np.isfinite(value) or not parts or not np.all(np.isfinite(inner)):
             continue
         divides = node.op() in (ca.OP_DIV, ca.OP_INV)
         operand = parts[-1 if divides else 0]
-        words = WORDS.get(node.op())
+        words = BEYOND if node.is_output() else WORDS.get(node.op())
         if words is None or (divides and inner[-1]):
             return "gives a number that is too large", operand
         return words.format(_named(operand, inner[-1 if divides else 0])), operand
     return "holds a number that is not finite, such as 1/0 or sqrt(-1)", row.expression
+
+
+def _operands(node: Any) -> list[Any]:
+    """Return the operands of an operation; of a lookup in a table its argument."""
+    if not node.is_output():
+        return [node.dep(k) for k in range(node.n_dep())]
+    operand = node.dep(0).dep(0)
+    return _operands(operand) if operand.is_output() else [operand]
 
 
 def _named(operand: Any, value: float) -> str:

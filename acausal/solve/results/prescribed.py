@@ -12,7 +12,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.policy import POLICY
-from acausal.symbols import scalars, stacked
+from acausal.symbols import inlined, scalars, stacked
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,4 +101,4 @@ class Prescribed:
             return ca.SX(0, 1), ca.SX(0, 1)
         was = stacked([s for s, _ in pairs])
         becomes = ca.substitute([stacked([e for _, e in pairs])], [self._replaced[0]], [self._replaced[1]])
-        return was, ca.substitute_inplace([was], becomes, [])[0][0]
+        return was, inlined(was, becomes[0], [])[0]

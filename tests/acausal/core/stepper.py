@@ -27,7 +27,7 @@ class EquationsData(Structure):
 
     _fields_ = (
         *((name, c_int32) for name in ("nx", "nz", "np", "nc")),
-        *((name, POINTER(TapeData)) for name in ("values", "slopes", "powers")),
+        *((name, POINTER(TapeData)) for name in ("values", "slopes", "powers", "kinks")),
         *((name, c_void_p) for name in ("start", "row", "diagonal")),
     )
 
@@ -103,7 +103,7 @@ def idas(equations: Equations) -> Stepper:
 
 def data_of(e: Equations) -> EquationsData:
     """Return what the library takes; it holds addresses of the arrays of these equations."""
-    tapes = (e.values.data, e.slopes.data, e.powers.data if e.powers else None)
+    tapes = (e.values.data, e.slopes.data, *(t.data if t else None for t in (e.powers, e.kinks)))
     return EquationsData(
         *(e.nx, e.nz, e.np, e.nc),
         *(None if tape is None else pointer(tape) for tape in tapes),

@@ -366,9 +366,9 @@ def test_foreign_files_are_refused(good, tmp_path):
     assert "it is not an open DAE" in why(tmp_path / "text.dae")
     assert "it has no dae.json" in why(packed(tmp_path / "a.dae", {"a": b""}))
     assert "does not name the format" in why(packed(tmp_path / "b.dae", {**content, "dae.json": b'{"format": "x"}'}))
-    assert "version 4" in why(
+    assert "version 5" in why(
         packed(
-            tmp_path / "c.dae", {**content, "dae.json": content["dae.json"].replace(b'"version":3', b'"version":4', 1)}
+            tmp_path / "c.dae", {**content, "dae.json": content["dae.json"].replace(b'"version":4', b'"version":5', 1)}
         )
     )
     assert "each once" in why(packed(tmp_path / "d.dae", {**content, "more": b""}))
