@@ -12,6 +12,7 @@ import typer
 from acausal.cli.common import (
     Applied,
     Initial,
+    Inputs,
     Json,
     Quiet,
     Scene,
@@ -24,12 +25,14 @@ from acausal.cli.common import (
     stop_time_of,
     user_errors,
 )
+from acausal.cli.option_values import read_inputs
 from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
 from acausal.cli.scenes import file_of, find_scene, scenes
 from acausal.cli.streams import escape_unencodable, flushed, tell
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
+from acausal.simulation.inputs import with_inputs
 from acausal.simulation.model_settings import effective_settings
 from acausal.simulation.run_cache import adaptive
 from acausal.simulation.settings_checks import check_choice, checked_task
@@ -71,6 +74,7 @@ def list_scenes() -> None:
 def simulate(
     scene: Scene,
     settings: Set = None,
+    inputs: Inputs = None,
     effects: Applied = None,
     stop_time: StopTime = None,
     tolerance: Annotated[
@@ -152,7 +156,8 @@ def simulate(
         limits = {"max_steps": max_steps, "max_seconds": max_seconds}
         with user_errors(cls):
             how["stop_time"] = stop_time_of(model, given, stop_time)
-            checked_task(model, given, how, **limits)
+            task, _ = checked_task(model, given, how, **limits)
+            given = with_inputs(model, given, read_inputs(inputs or ()), ends=(task.start_time, task.stop_time))
             compiled = ac.compile(model, parameters=given)
         # Refuse wrong names before the run.
         chosen = match(compiled.tree, variables or ())
@@ -185,7 +190,12 @@ def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Jso
 
 @app.command()
 def linearize(
-    scene: Scene, settings: Set = None, effects: Applied = None, initial: Initial = None, json: Json = None
+    scene: Scene,
+    settings: Set = None,
+    inputs: Inputs = None,
+    effects: Applied = None,
+    initial: Initial = None,
+    json: Json = None,
 ) -> None:
     """Linearise a scene about its initial point and list its modes."""
     with running(json) as standard_output:
@@ -193,7 +203,8 @@ def linearize(
 
         check_outputs((file_of(scene), effects), json=json)
         check_choice("initial", initial)
-        linear = ac.linearize(compile_scene(scene, find_scene(scene), settings, effects), initial=initial)
+        compiled, data = compile_scene(scene, find_scene(scene), settings, effects), read_inputs(inputs or ())
+        linear = ac.linearize(compiled, inputs=data, initial=initial)
         typer.echo(modes_table(linear.eigenvalues))
         if json:
             document = {key: getattr(linear, key) for key in MODES} | {

@@ -38,6 +38,14 @@ Set = Annotated[
         "--set", metavar="NAME=VALUE", help="Value of a parameter: a number, a word or a tuple such as 0,0,1."
     ),
 ]
+Inputs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--input",
+        metavar="NAME=FILE.csv:COLUMN",
+        help="Data of an input; times are in the column `time`, else in the first.",
+    ),
+]
 Applied = Annotated[
     str | None,
     typer.Option(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from acausal.errors import DeclarationError
+from acausal.language.table import Table
 from acausal.result import shown_name
 
 # First characters of a text that is meant as a number, a tuple or a quoted text.
@@ -34,6 +36,34 @@ def read_settings(texts: Iterable[str]) -> dict[str, Any]:
             raise DeclarationError(f"--set gives `{shown_name(name)}` twice; leave one out.")
         values[name] = value_of(value, f"--set {shown_name(name)}")
     return values
+
+
+def read_inputs(texts: Iterable[str]) -> dict[str, Any]:
+    """Read NAME=FILE.csv:COLUMN pairs as times and values.
+
+    Parameters
+    ----------
+    texts : iterable of str
+        Times are in the column `time`, else in the first one; COLUMN may be left out if there is one more.
+
+    Raises
+    ------
+    DeclarationError
+        If a text is not such a pair, a name occurs twice, or a file has no such column.
+    """
+    found: dict[str, Any] = {}
+    for text in texts:
+        name, value = pair(text, "--input takes NAME=FILE.csv:COLUMN, such as --input road=road.csv:height")
+        if name in found:
+            raise DeclarationError(f"--input gives `{shown_name(name)}` twice; leave one out.")
+        path, colon, column = (value, "", "") if Path(value).exists() else value.rpartition(":")
+        if not colon and not Path(value).exists():
+            path, column = value, ""
+        data = Table.from_csv(path, column or None)
+        if data.width:
+            raise DeclarationError(f"--input {shown_name(name)}: name one of the {data.width} columns, {path}:COLUMN.")
+        found[name] = data.x, data.values
+    return found
 
 
 def read_switches(texts: Iterable[str]) -> dict[str, list[Any]]:

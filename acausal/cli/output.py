@@ -154,6 +154,11 @@ def summary(result: Result) -> str:
         f"  {stats.states} states, {stats.algebraic} algebraic unknowns; {stats.steps} steps, "
         f"{stats.factorisations} factorisations; {_method(stats)}",
         *_events(stats),
+        *(
+            [f"  inputs held: {', '.join(f'{n} = {v:g}' for n, v in stats.held_inputs.items())}"]
+            if stats.held_inputs
+            else []
+        ),
         *([f"  {chosen_text(stats)}; {len(stats['trials'])} runs"] if "accuracy" in stats else []),
     ]
     series = result.series()

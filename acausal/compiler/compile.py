@@ -15,11 +15,13 @@ from acausal.compiler.model_source import Source
 from acausal.compiler.parameters import Settable
 from acausal.compiler.structural_zeros import remedy_for_zeros
 from acausal.compiler.time_conditions import split_time_comparisons
-from acausal.errors import StructurallySingularError, UnbalancedModelError
+from acausal.errors import DeclarationError, StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel, flatten
 from acausal.garbage import uncollected
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
+from acausal.language.driven import Driven
+from acausal.language.table import Table
 from acausal.locks import exclusive
 from acausal.reduce import plan_of, reduce
 from acausal.reduce.explain import UNCONNECTED
@@ -102,11 +104,26 @@ def _generate(compiled: CompiledModel) -> None:
     guards.check()
 
 
+def _driven(compiled: CompiledModel, laws: dict[str, Any]) -> CompiledModel:
+    """Return a model with laws of inputs among its equations, compiled again once for all laws of the same form."""
+    if not laws:
+        return compiled
+    source = compiled.source
+    if source is None:
+        raise DeclarationError(f"`{next(iter(laws))}` is constant in this model, which cannot be compiled again.")
+    forms = tuple((name, v.settings if isinstance(v, Table) else v) for name, v in sorted(laws.items()))
+    if (_driven, forms) not in compiled.memo:
+        compiled.memo[_driven, forms] = source.make(source.model, {**source.parameters, **laws})
+    return compiled.memo[_driven, forms]
+
+
 def ready(
     model: Component | CompiledModel, parameters: Mapping[str, Any] | None = None
 ) -> tuple[CompiledModel, np.ndarray]:
     """Return the compiled model, compiling it if needed, and the values of its free parameters after the changes."""
     if isinstance(model, CompiledModel):
-        return model, model.settable.values(checked_values(parameters))
+        values = checked_values(parameters)
+        model = _driven(model, {name: v for name, v in values.items() if model.settable.is_new_law(name, v)})
+        return model, model.settable.values({k: v for k, v in values.items() if not isinstance(v, Driven)})
     compiled = compile(model, parameters)
     return compiled, compiled.settable.values(None)

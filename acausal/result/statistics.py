@@ -69,6 +69,8 @@ class Statistics(Mapping[str, Any]):
         Redundant constraints of loops and of parts, and independent states, by ranks at the start; computed on first access.
     doubts : list of str
         Components used outside their range of validity.
+    held_inputs : dict of str to float
+        Inputs of the whole model that were constant, with their values.
     stopped : str
         Why the run ended before its stop time.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
@@ -112,6 +114,7 @@ class Statistics(Mapping[str, Any]):
     redundant_in_parts: Later[list[dict[str, Any]]] = Later(list)
     independent_states: Later[list[str]] = Later(list)
     doubts: list[str] = field(default_factory=list)
+    held_inputs: dict[str, float] = field(default_factory=dict)
     operations: int | None = None
     stopped: str | None = None
     energy_supplied: float | None = None

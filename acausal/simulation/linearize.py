@@ -18,6 +18,7 @@ from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import exclusive
 from acausal.policy import POLICY
+from acausal.simulation.inputs import at_time
 from acausal.simulation.linear_point import check_point
 from acausal.simulation.model_settings import check_number, effective_settings
 from acausal.solve.diagnosis.not_finite import cause, infinite_slope
@@ -97,6 +98,7 @@ def linearize(
     model: Component | CompiledModel,
     *,
     parameters: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, Any] | None = None,
     initial: str | None = None,
     time: float = 0.0,
 ) -> Linearization:
@@ -108,6 +110,8 @@ def linearize(
         The model.
     parameters : mapping of str to value, optional
         Values by path.
+    inputs : mapping of str to data, optional
+        As in `simulate`; their values at `time` belong to the point.
     initial : "fixed", "guesses" or "steady"
         See `simulate`.
     time : float
@@ -130,12 +134,12 @@ def linearize(
     """
     how = effective_settings(model, parameters, {"initial": initial})["initial"]
     check_number("time", time)
-    compiled, p = ready(model, parameters)
+    compiled, p = ready(model, at_time(model, parameters, inputs, time))
     problem = Problem(compiled, p)
     at = first_point(problem, time, how)
     _refuse_singular(problem, at, how == "steady")
-    inputs, nx = _inputs(compiled), compiled.nx
-    slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in inputs]))
+    own, nx = _inputs(compiled), compiled.nx
+    slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in own]))
     slopes = slopes_at(at)
     check_point(problem, at, slopes_at)
     N, independent = tangent(problem, at)
@@ -149,7 +153,7 @@ def linearize(
         C=C,
         D=D,
         states=tuple(compiled.states[k] for k in independent),
-        inputs=tuple(name for name, _ in inputs),
+        inputs=tuple(name for name, _ in own),
         outputs=tuple(names),
     )
 

@@ -12,6 +12,7 @@ from acausal.language.component import Component
 from acausal.locks import exclusive
 from acausal.result import Result
 from acausal.simulation.accuracy_control import simulate_to_accuracy
+from acausal.simulation.inputs import with_inputs
 from acausal.simulation.run_cache import RunCache
 from acausal.simulation.settings_checks import checked_task
 from acausal.solve.integrate.settings import Progress
@@ -29,6 +30,8 @@ def simulate(
     accuracy: float | None = None,
     intervals: int | None = None,
     parameters: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, Any] | None = None,
+    extrapolation: str = "refuse",
     initial: str | None = None,
     method: str | None = None,
     constraints: str | None = None,
@@ -61,6 +64,11 @@ def simulate(
         The result has intervals + 1 equidistant points; 400 by default.
     parameters : mapping of str to value, optional
         Values by path, such as {"beam.E": 7e10}.
+    inputs : mapping of str to data, optional
+        What inputs of the whole model do in the run, by name: (times, values), interpolated linearly (truth values hold), a
+        pandas Series, a Table, or a function of time. Others keep their start value.
+    extrapolation : "refuse" or "hold"
+        Whether data have to cover the run, or hold their first and last value. A Table has an extrapolation of its own.
     initial : "fixed", "guesses" or "steady"
         What to do with states without an initial condition: refuse them, take their guesses, or solve for an equilibrium;
         without an equilibrium, for steady rotation about cyclic coordinates. Default "fixed".
@@ -110,8 +118,10 @@ def simulate(
     task, accuracy = checked_task(
         *(model, parameters, given, start_time, energy, progress), max_steps=max_steps, max_seconds=max_seconds
     )
+    ends = task.start_time, task.stop_time
+    values = with_inputs(model, parameters, inputs, extrapolation, ends)
     try:
-        result = _simulate(model, parameters, task, accuracy)
+        result = _simulate(model, values, task, accuracy)
     except SimulationError as failure:
         if not failure.begun:
             raise InitializationError(str(failure)) from None

@@ -13,6 +13,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.memo import memo_seconds
 from acausal.compiler.report import loops_at, parts_at
 from acausal.errors import DeclarationError, SimulationError
+from acausal.flatten.model_inputs import held_inputs
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
@@ -253,6 +254,7 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         loops=lambda: loops_at(compiled.reduced, begun.found(compiled)),
         redundant_in_parts=lambda: parts_at(compiled.reduced, begun.found(compiled)),
         independent_states=lambda: list(begun.independent_states),
+        held_inputs=held_inputs(compiled.reduced.flat, integrator.problem.p),
     )
 
 

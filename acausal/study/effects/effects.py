@@ -15,6 +15,7 @@ from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.data import same
 from acausal.policy import POLICY
+from acausal.simulation.inputs import with_inputs
 from acausal.simulation.settings_checks import check_choice
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, interaction, row
@@ -44,6 +45,7 @@ def effects(
     intervals: int = POLICY.defaults.intervals,
     outputs: Sequence[str] | None = None,
     parameters: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, Any] | None = None,
     initial: str | None = None,
     method: str | None = None,
     repeats: int = 3,
@@ -75,6 +77,8 @@ def effects(
         Paths, or patterns with * and ?, of the quantities to compare; the outputs of the model if not given.
     parameters : mapping of str to value, optional
         Values by path for all runs.
+    inputs : mapping of str to data, optional
+        As in `simulate`.
     repeats : int
         Runs whose median solve time counts.
     limit : float
@@ -100,8 +104,9 @@ def effects(
     SimulationError
         If neither the fullest scene nor the scene itself can be integrated.
     """
-    model, given = checked_model(model), checked_values(parameters)
-    stop = stop_time_of(model, stop_time, given)
+    model = checked_model(model)
+    stop = stop_time_of(model, stop_time, checked_values(parameters))
+    given = with_inputs(model, parameters, inputs, ends=(0.0, stop))
     check_run(intervals, repeats, limit)
     check_counts(0, pairs=pairs)
     check_shares(1e-2, accuracy=accuracy)

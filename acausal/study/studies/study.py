@@ -20,6 +20,7 @@ from acausal.result import check_writable
 from acausal.result.files import whole
 from acausal.result.plots import save
 from acausal.result.tables import read_csv, write_csv
+from acausal.simulation.inputs import with_inputs
 from acausal.simulation.settings_checks import check_choice
 from acausal.study.measuring.case import Case, Job
 from acausal.study.measuring.journal import Journal, identity
@@ -162,6 +163,7 @@ def study(
     *,
     stop_time: float | None = None,
     parameters: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, Any] | None = None,
     outputs: Sequence[str] = (),
     formulations: Sequence[Formulation] | None = None,
     tolerances: Sequence[float] = TOLERANCES,
@@ -191,6 +193,8 @@ def study(
         In s; the model's own if not given.
     parameters : mapping of str to value, optional
         Values by path, common to all cases and not varied.
+    inputs : mapping of str to data, optional
+        As in `simulate`.
     outputs : sequence of str
         Paths of the quantities to compare, with * and ?; if empty, those in the model's attribute `compared`, or its outputs.
     formulations : sequence of Formulation, optional
@@ -237,8 +241,9 @@ def study(
     SimulationError
         If no reference can be computed.
     """
-    model, given = checked_model(model), checked_values(parameters)
-    stop = stop_time_of(model, stop_time, given)
+    model = checked_model(model)
+    stop = stop_time_of(model, stop_time, checked_values(parameters))
+    given = with_inputs(model, parameters, inputs, ends=(0.0, stop))
     check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
     _check(initial, workers, journal)
