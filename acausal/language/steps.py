@@ -13,10 +13,12 @@ from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
-from acausal.language.functions import piecewise, sqrt
+from acausal.language.functions import piecewise, sqrt, time
 from acausal.language.pending import PENDING
 from acausal.language.when_statements import Reinit, When
 from acausal.units import DIMENSIONLESS
+
+_TIME = time.sx.element_hash()
 
 
 @checked_call
@@ -39,7 +41,11 @@ def maximum(a: Any, b: Any, *, smooth: Any = 0) -> Any:
 def _maximum(a: Any, b: Any, smooth: Any) -> Any:
     a, b = as_expr(a), as_expr(b)
     if isinstance(smooth, int | float) and smooth == 0:
-        return piecewise((a, a > b), b)
+        pending, symbols = PENDING.get(None), {s.element_hash() for s in ca.symvar(ca.vertcat(a.sx, b.sx))}
+        if pending is None or symbols & pending.varying or _TIME in symbols:
+            return piecewise((a, a > b), b)
+        unit = unit_rules.common(a, b, "the arguments of maximum")
+        return Expr(ca.fmax(a.sx, b.sx), unit)
     return (a + b + sqrt((a - b) ** 2 + smooth**2)) / 2
 
 

@@ -86,6 +86,19 @@ class Linearization:
         """-Re lambda / |lambda| of the same pairs."""
         return -np.real(self._oscillations) / np.abs(self._oscillations)
 
+    def to_control(self) -> Any:
+        """Return the system as `control.StateSpace`, with the names of states, inputs and outputs; needs the package control."""
+        import control
+
+        names = {"states": list(self.states), "inputs": list(self.inputs), "outputs": list(self.outputs)}
+        return control.StateSpace(self.A, self.B, self.C, self.D, **names)
+
+    def to_scipy(self) -> Any:
+        """Return the system as `scipy.signal.StateSpace`."""
+        from scipy.signal import StateSpace
+
+        return StateSpace(self.A, self.B, self.C, self.D)
+
     @property
     def mode_shapes(self) -> tuple[np.ndarray, np.ndarray]:
         """Eigenvalues (n,) and eigenvectors (n, n), one mode per column, with rows in the order of `states`."""

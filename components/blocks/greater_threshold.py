@@ -1,0 +1,15 @@
+"""GreaterThreshold: 1 where the input is above a threshold."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter, piecewise
+from components.blocks.siso import SISO
+
+
+class GreaterThreshold(SISO):
+    """1 where the input is above a threshold."""
+
+    threshold: Scalar = parameter("threshold", default=0)
+
+    def equations(self):
+        yield self.y == piecewise((1, self.u > self.threshold), 0)
