@@ -7,7 +7,7 @@ from typing import Any
 
 import casadi as ca
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, UnitsError
 from acausal.language import unit_rules
 from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition
@@ -80,7 +80,7 @@ def floor(x: Any) -> Any:
     if x.shape:
         raise DeclarationError(f"floor needs a scalar, not a value of shape {x.shape}.")
     if isinstance(x.unit, type(DIMENSIONLESS)) and x.unit != DIMENSIONLESS:
-        raise DeclarationError(f"floor needs a number, but {x!r} is in [{x.unit}].")
+        raise UnitsError(f"floor needs a number, but {x!r} is in [{x.unit}].")
     if x.sx.is_constant() or not pending.watches:
         return Expr(ca.floor(x.sx), DIMENSIONLESS)
     whole = Expr(ca.SX.sym("floor"), DIMENSIONLESS, "floor")

@@ -19,7 +19,6 @@ from acausal import (
     mod,
     output,
     parameter,
-    quantity,
     variable,
 )
 from acausal import time as now
@@ -61,10 +60,11 @@ def test_values_and_events():
 
 def test_units():
     class Wrong(Model):
+        p: Scalar = parameter("length", unit="m", default=2)
         y: Scalar = output("value")
 
         def equations(self):
-            yield self.y == floor(quantity(2, "m") * now)
+            yield self.y == floor(self.p)
 
     with pytest.raises(UnitsError, match=r"floor needs a number, but .* is in \[m"):
         ac.compile(Wrong())
