@@ -70,7 +70,7 @@ def compile(
     settable = Settable(flat)
     settable.values(None)  # a parameter out of its limits, such as a length of 0, is reported before its consequences
     lap("flatten")
-    plan, linear = _analysed(flat, model, parameters)
+    flat, plan, linear = _analysed(flat, model, parameters)
     lap("analyse")
     reduced = split_time_comparisons(reduce(flat, plan, linear))
     lap("reduce")
@@ -85,8 +85,11 @@ def compile(
     return compiled
 
 
-def _analysed(flat: FlatModel, model: Component, parameters: Mapping[str, Any]) -> tuple[Any, Any]:
-    """Return the plan of the reduction and its linear terms; an error names parameters whose zeros leave the model incomplete."""
+def _analysed(flat: FlatModel, model: Component, parameters: Mapping[str, Any]) -> tuple[FlatModel, Any, Any]:
+    """Return the model with hidden constraints, the plan of its reduction and its linear terms.
+
+    An error names parameters whose zeros leave the model incomplete.
+    """
     try:
         return plan_of(flat)
     except (UnbalancedModelError, StructurallySingularError) as error:

@@ -158,6 +158,8 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
     """Return the lines for an under-determined part, the likely cause first, and the remedy."""
     hints = _hints(flat, part)
     lines = [*hints, *_undetermined(flat, part)]
+    if not hints and (reference := _reference(flat, part)):
+        return [*lines, f"No {reference} fixes their level: connect one to any of these parts."]
     if not hints and (repeats := _repeats(flat)):
         return [*lines, *repeats]
     ports = any(line.startswith(UNCONNECTED) for line in hints)
@@ -171,6 +173,13 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
     remedy += " values (in the class, or where the part is created) or equations." if hints and not ports else "."
     zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
     return [*lines, remedy + zero]
+
+
+def _reference(flat: FlatModel, part: Subsystem) -> str:
+    """Return the class of the part that the connectors of undetermined unknowns lack, "" if they need none."""
+    names = [flat.unknowns.names[v] for v in part.variables if v < len(flat.unknowns.names)]
+    connectors = [c for c in walk(flat.tree) if isinstance(c, Connector) and hasattr(c, "reference")]
+    return next((c.reference for c in connectors if any(n.startswith(f"{c._path}.") for n in names)), "")
 
 
 def _repeats(flat: FlatModel) -> list[str]:

@@ -12,6 +12,7 @@ from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
 from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.flat_incidence import Incidence, jacobian, system_of
+from acausal.reduce.hidden_constraints import with_hidden_constraints
 from acausal.reduce.input_derivatives import refuse_differentiated_inputs
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.reduce.tables import table_kinks
@@ -19,8 +20,8 @@ from acausal.structure import Plan, StructuralSingularity, Subsystem, analyse
 from acausal.symbols import inlined, scalars
 
 
-def plan_of(flat: FlatModel) -> tuple[Plan, Incidence]:
-    """Return the solution plan of a flat model, and the Jacobian of its residuals.
+def plan_of(flat: FlatModel) -> tuple[FlatModel, Plan, Incidence]:
+    """Return a flat model with its hidden constraints, its solution plan, and the Jacobian of its residuals.
 
     Raises
     ------
@@ -32,6 +33,8 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Incidence]:
         If the derivative of an input of the whole model is needed.
     """
     system, linear = system_of(flat)
+    if (shown := with_hidden_constraints(flat, linear)) is not flat:
+        flat, (system, linear) = shown, system_of(shown)
     try:
         plan = analyse(system)
         refuse_implicit(plan)
@@ -41,7 +44,7 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Incidence]:
         kind = UnbalancedModelError if surplus else StructurallySingularError
         raise kind(explain(flat, singularity, surplus)) from None
     refuse_differentiated_inputs(flat, plan)
-    return plan, linear
+    return flat, plan, linear
 
 
 def refuse_implicit(plan: Plan) -> None:

@@ -1,0 +1,25 @@
+"""PulseVoltage: source of rectangular pulses of voltage."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter, pulse, structural
+from components.electrical.one_port import OnePort
+
+
+class PulseVoltage(OnePort):
+    """Source of rectangular pulses of voltage."""
+
+    V: Scalar = parameter("height of the pulses", unit="V", default=1)
+    width: Scalar = parameter("width in per cent of the period", default=50)
+    period: Scalar = parameter("period", unit="s", default=1, positive=True)
+    n_period: int = structural("number of pulses, negative without end", default=-1)
+    offset: Scalar = parameter("voltage added", unit="V", default=0)
+    start_time: Scalar = parameter("start of the signal", unit="s", default=0)
+
+    def equations(self):
+        yield from super().equations()
+        yield self.v == pulse(self.V, self.width, self.period, self.n_period, self.offset, self.start_time)
+
+    def supplied_power(self):
+        """Power into the circuit."""
+        return -self.v * self.i
