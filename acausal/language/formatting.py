@@ -43,8 +43,8 @@ def kind_of(shape: tuple[int, ...]) -> str:
 
 
 def _scalar(sx: ca.SX, known: dict[int, str], depth: int) -> str:
-    if sx.n_dep() == 0:
-        return str(sx)
+    if sx.n_dep() == 0 or sx.is_output():
+        return "table(...)" if sx.is_output() else str(sx)
     key = sx.element_hash()
     if key not in known:
         if depth == 0:

@@ -28,7 +28,8 @@ def search(x: np.ndarray, kind: str, extrapolation: str) -> list[np.ndarray]:
 
 def curve(x: np.ndarray, y: np.ndarray, kind: str, extrapolation: str, ends: str) -> np.ndarray:
     """Return the coefficients of values y (n, k), shape (n + 1, 4 k): before the first point, between points, behind the last."""
-    inner = np.zeros((len(x) - 1, y.shape[1], 4))  # those of no length, at jumps, stay
+    inner = np.zeros((len(x) - 1, y.shape[1], 4))
+    inner[..., 0] = y[:-1]  # all of those of no length, at jumps
     cuts = (np.flatnonzero(np.diff(x) == 0) + 1).tolist()
     for a, b in zip([0, *cuts], [*cuts, len(x)], strict=True):
         if b > a + 1:
@@ -51,11 +52,12 @@ def surface(x: np.ndarray, y: np.ndarray, z: np.ndarray, kind: str, extrapolatio
 
 def pieces(x: np.ndarray, jumps: np.ndarray, periodic: bool) -> list[np.ndarray]:
     """Return where pieces between jumps end, and their first and last rows."""
-    jumps = np.unique(jumps)
-    jumps = jumps[jumps < x[-1]] if periodic else jumps
+    jumps, first, last, end = np.unique(jumps), 0, len(x), NEVER
+    if periodic:  # from one end to the other, where the values next to the inner points hold
+        jumps, end = jumps[(jumps > x[0]) & (jumps < x[-1])], x[-1]
+        first, last = np.searchsorted(x, x[0], side="right"), np.searchsorted(x, x[-1], side="left")
     before, after = (np.searchsorted(x, jumps, side=side) for side in ("left", "right"))
-    end, rows = (x[-1], len(x) - 1) if periodic else (NEVER, len(x))
-    return [np.append(jumps, end), np.append(1 if periodic else 0, after), np.append(before, rows)]
+    return [np.append(jumps, end), np.append(first, after), np.append(before, last)]
 
 
 def _ended(c: np.ndarray, x: np.ndarray, last: np.ndarray, extrapolation: str) -> np.ndarray:

@@ -179,7 +179,7 @@ def _reference(flat: FlatModel, part: Subsystem) -> str:
     """Return the class of the part that the connectors of undetermined unknowns lack, "" if they need none."""
     names = [flat.unknowns.names[v] for v in part.variables if v < len(flat.unknowns.names)]
     connectors = [c for c in walk(flat.tree) if isinstance(c, Connector) and hasattr(c, "reference")]
-    return next((c.reference for c in connectors if any(n.startswith(f"{c._path}.") for n in names)), "")
+    return next((getattr(c, "reference") for c in connectors if any(n.startswith(f"{c._path}.") for n in names)), "")  # noqa: B009
 
 
 def _repeats(flat: FlatModel) -> list[str]:
