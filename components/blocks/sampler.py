@@ -7,7 +7,7 @@ from components.blocks.periodic_block import PeriodicBlock
 
 
 class Sampler(PeriodicBlock):
-    """Samples of the input, held in between."""
+    """Samples of the input, held in between; a sample is the value just before its instant."""
 
     held: Scalar = discrete("last sample", start=0)
 

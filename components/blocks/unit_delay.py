@@ -1,4 +1,4 @@
-"""UnitDelay: input of the sample before."""
+"""UnitDelay: the input just before each sample."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ from components.blocks.periodic_block import PeriodicBlock
 
 
 class UnitDelay(PeriodicBlock):
-    """Input of the sample before."""
+    """Input just before each sample: that of the sample before, if it changes at samples of the same period."""
 
-    y_start: Scalar = parameter("output until the second sample", default=0)
+    y_start: Scalar = parameter("output before the first sample", default=0)
     held: Scalar = discrete("last sample", start=y_start)
-    before: Scalar = discrete("the sample before", start=y_start)
 
     def equations(self):
-        yield self.sampled(reinit(self.before, self.held), reinit(self.held, self.u))
-        yield self.y == self.before
+        yield self.sampled(reinit(self.held, self.u))
+        yield self.y == self.held

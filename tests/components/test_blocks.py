@@ -236,8 +236,18 @@ def test_samplers():
     for cls in (blocks.Sampler, blocks.ZeroOrderHold):
         t, y, _ = run(cls(sample_period=T), u=U)
         np.testing.assert_allclose(y[1:], wave(samples(t) * T)[1:], atol=1e-9)
-    t, y, _ = run(blocks.UnitDelay(sample_period=T, y_start=7), u=U)
-    expected = np.where(samples(t) < 1, 7, wave((samples(t) - 1) * T))
+
+    class Delayed(Model):
+        first = blocks.Sampler(sample_period=T, u=U)
+        then = blocks.UnitDelay(sample_period=T, y_start=7)
+        stop_time = 3
+
+        def connections(self):
+            yield connect(self.first.y, self.then.u)
+
+    result = ac.simulate(Delayed())
+    t, y = result.time, result["then.y"]
+    expected = np.where(samples(t) < 1, 0, wave((samples(t) - 1) * T))
     np.testing.assert_allclose(y[1:], expected[1:], atol=1e-9)
     t, y, _ = run(blocks.FirstOrderHold(sample_period=T), u=U)
     k = samples(t)
