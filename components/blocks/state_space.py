@@ -36,7 +36,7 @@ class StateSpace(Component):
         A, B, C = (np.asarray(part, dtype=float) for part in (self.A, self.B, self.C))
         if len(A):
             yield der(self.x) == A @ self.x + B @ self.u
-        outputs = C @ self.x if len(A) else 0
+        outputs = C @ self.x if len(A) else np.zeros(len(C))
         yield self.y == (outputs if self.D is None else outputs + np.asarray(self.D, dtype=float) @ self.u)
 
     def initial_equations(self):

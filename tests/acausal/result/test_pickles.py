@@ -95,7 +95,7 @@ def test_a_pickle_of_what_was_loaded(loaded):
 READER = """
 import pickle, sys
 result = pickle.load(sys.stdin.buffer)
-assert not any("hidden" in name for name in sys.modules)
+assert not any("concealed" in name for name in sys.modules)
 print(result["part.s"][-1], result.series("part.s")[0].unit, list(result.to_dataframe()))
 """
 HIDDEN = """
@@ -115,8 +115,8 @@ class Hidden(Model):
 
 
 def test_a_process_without_the_model_reads_it(tmp_path):
-    (tmp_path / "hidden.py").write_text(HIDDEN)
-    cls = find_scene(f"{tmp_path}/hidden.py:Hidden")
+    (tmp_path / "concealed.py").write_text(HIDDEN)
+    cls = find_scene(f"{tmp_path}/concealed.py:Hidden")
     compiled = ac.compile(cls())
     data = pickle.dumps(ac.simulate(compiled, stop_time=3.0, intervals=4))
     done = subprocess.run([sys.executable, "-c", READER], input=data, capture_output=True, cwd=ROOT, check=False)
@@ -124,7 +124,7 @@ def test_a_process_without_the_model_reads_it(tmp_path):
     value, unit, *columns = done.stdout.decode().split(maxsplit=2)
     assert abs(float(value) - 6) < 1e-5
     assert (unit, columns) == ("m", ["['time', 'x']\n"])
-    with pytest.raises(ac.ExportError, match=r"Hidden.*hidden.py.*from hidden import Hidden"):
+    with pytest.raises(ac.ExportError, match=r"Hidden.*concealed.py.*from concealed import Hidden"):
         pickle.dumps(compiled)
 
 
