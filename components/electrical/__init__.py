@@ -6,6 +6,7 @@ from components.electrical.constant_current import ConstantCurrent
 from components.electrical.constant_voltage import ConstantVoltage
 from components.electrical.controlled_ideal_closing_switch import ControlledIdealClosingSwitch
 from components.electrical.controlled_ideal_opening_switch import ControlledIdealOpeningSwitch
+from components.electrical.controlled_ideal_switch import ControlledIdealSwitch
 from components.electrical.current_sensor import CurrentSensor
 from components.electrical.dc_electrical_excited import DCElectricalExcited
 from components.electrical.dc_machine import DCMachine
@@ -35,6 +36,7 @@ from components.electrical.signal_current import SignalCurrent
 from components.electrical.signal_voltage import SignalVoltage
 from components.electrical.sine_current import SineCurrent
 from components.electrical.sine_voltage import SineVoltage
+from components.electrical.source import Source
 from components.electrical.step_current import StepCurrent
 from components.electrical.step_voltage import StepVoltage
 from components.electrical.table_current import TableCurrent
@@ -51,6 +53,7 @@ __all__ = [
     "ConstantVoltage",
     "ControlledIdealClosingSwitch",
     "ControlledIdealOpeningSwitch",
+    "ControlledIdealSwitch",
     "CurrentSensor",
     "DCElectricalExcited",
     "DCMachine",
@@ -80,6 +83,7 @@ __all__ = [
     "SignalVoltage",
     "SineCurrent",
     "SineVoltage",
+    "Source",
     "StepCurrent",
     "StepVoltage",
     "TableCurrent",

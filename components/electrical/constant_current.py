@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class ConstantCurrent(OnePort):
+class ConstantCurrent(Source):
     """Source of a constant current."""
 
     I: Scalar = parameter("current", unit="A", default=1)
@@ -14,7 +14,3 @@ class ConstantCurrent(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.i == self.I
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

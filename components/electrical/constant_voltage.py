@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class ConstantVoltage(OnePort):
+class ConstantVoltage(Source):
     """Source of a constant voltage."""
 
     V: Scalar = parameter("voltage", unit="V", default=1)
@@ -14,7 +14,3 @@ class ConstantVoltage(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.v == self.V
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

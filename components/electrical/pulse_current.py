@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter, pulse, structural
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class PulseCurrent(OnePort):
+class PulseCurrent(Source):
     """Source of rectangular pulses of current."""
 
     I: Scalar = parameter("height of the pulses", unit="A", default=1)
@@ -19,7 +19,3 @@ class PulseCurrent(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.i == pulse(self.I, self.width, self.period, self.n_period, self.offset, self.start_time)
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

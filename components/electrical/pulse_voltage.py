@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter, pulse, structural
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class PulseVoltage(OnePort):
+class PulseVoltage(Source):
     """Source of rectangular pulses of voltage."""
 
     V: Scalar = parameter("height of the pulses", unit="V", default=1)
@@ -19,7 +19,3 @@ class PulseVoltage(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.v == pulse(self.V, self.width, self.period, self.n_period, self.offset, self.start_time)
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

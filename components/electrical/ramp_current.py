@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter, ramp
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class RampCurrent(OnePort):
+class RampCurrent(Source):
     """Source of a current that rises from one value to another."""
 
     I: Scalar = parameter("height", unit="A", default=1)
@@ -17,7 +17,3 @@ class RampCurrent(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.i == ramp(self.I, self.duration, self.offset, self.start_time)
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter, ramp
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class RampVoltage(OnePort):
+class RampVoltage(Source):
     """Source of a voltage that rises from one value to another."""
 
     V: Scalar = parameter("height", unit="V", default=1)
@@ -17,7 +17,3 @@ class RampVoltage(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.v == ramp(self.V, self.duration, self.offset, self.start_time)
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

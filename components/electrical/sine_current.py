@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter, sine
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class SineCurrent(OnePort):
+class SineCurrent(Source):
     """Source of a sinusoidal current."""
 
     I: Scalar = parameter("amplitude", unit="A", default=1)
@@ -18,7 +18,3 @@ class SineCurrent(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.i == sine(self.I, self.f, self.phase, self.offset, self.start_time)
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

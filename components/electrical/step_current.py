@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter, step
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class StepCurrent(OnePort):
+class StepCurrent(Source):
     """Source of a current that steps."""
 
     I: Scalar = parameter("height", unit="A", default=1)
@@ -16,7 +16,3 @@ class StepCurrent(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.i == step(self.I, self.offset, self.start_time)
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, parameter, step
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class StepVoltage(OnePort):
+class StepVoltage(Source):
     """Source of a voltage that steps."""
 
     V: Scalar = parameter("height", unit="V", default=1)
@@ -16,7 +16,3 @@ class StepVoltage(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.v == step(self.V, self.offset, self.start_time)
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from acausal import Scalar, Table, parameter, piecewise, structural, table, time
-from components.electrical.one_port import OnePort
+from components.electrical.source import Source
 
 
-class TableCurrent(OnePort):
+class TableCurrent(Source):
     """Source of a current by a table of time."""
 
     data: Table = structural("points", cls=Table)
@@ -16,7 +16,3 @@ class TableCurrent(OnePort):
     def equations(self):
         yield from super().equations()
         yield self.i == self.offset + piecewise((0, time < self.start_time), table(time - self.start_time, self.data))
-
-    def supplied_power(self):
-        """Power into the circuit."""
-        return -self.v * self.i
