@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.language.functions import atan2, cos, piecewise, quantity, sin, time
+from acausal.language.lookup import table
+from acausal.language.table import Table
 
 
 def sine(amplitude: Any = 1, f: Any = 1, phase: Any = 0, offset: Any = 0, start_time: Any = 0) -> Any:
@@ -150,13 +151,8 @@ def time_table(rows: Sequence[Sequence[float]], offset: Any = 0, start_time: Any
             "a table of time has rows (time, value) of ascending times, of which at most two are equal: "
             "time_table([(0, 0), (1, 2), (1, 3), (2, 3)])."
         )
-    if len(rows) == 1:
-        return step(rows[0][1], offset, start_time)
-    segments = [(a, b) for a, b in pairwise(rows) if b[0] > a[0]]
-    local = time - start_time
-    values = [ya + (yb - ya) / (b - a) * (local - a) for (a, ya), (b, yb) in segments]
-    cases = [(value, time < start_time + b) for value, (_, (b, _)) in zip(values, segments[:-1], strict=False)]
-    return offset + piecewise((0, time < start_time), *cases, values[-1])
+    values = table(time - start_time, Table(times, [y for _, y in rows], extrapolation="linear"))
+    return offset + piecewise((0, time < start_time), values)
 
 
 def _in(x: Any, unit: str) -> Any:
