@@ -45,17 +45,17 @@ def combined(left: ca.SX, operation: str, right: ca.SX) -> ca.SX:
     return ca.SX.binary(OPERATIONS[operation], left, right)
 
 
-def calls(column: ca.SX) -> bool:
-    """Return whether an expression contains calls of functions."""
-    return bool(ca.Function("column", [], [column], {"allow_free": True}).get_function())
+def called(column: ca.SX) -> set[str]:
+    """Return the names of the functions that an expression calls."""
+    return set(ca.Function("column", [], [column], {"allow_free": True}).get_function())
 
 
 def inlined(symbols: ca.SX, values: ca.SX, expressions: list[ca.SX]) -> tuple[ca.SX, list[ca.SX]]:
     """Return definitions, each inserted in those after it, and expressions with all of them inserted."""
-    if not calls(ca.vertcat(values, *map(vec, expressions))):
+    if not called(ca.vertcat(values, *map(vec, expressions))):
         definitions, others = ca.substitute_inplace([symbols], [values], expressions)
         return definitions[0], others
-    # CasADi's substitute_inplace fails where functions are called.
+    # CasADi's substitute_inplace gives wrong values where functions are called.
     depth, levels = dict[int, int](), defaultdict[int, list[int]](list)
     for k, (symbol, value) in enumerate(zip(scalars(symbols), scalars(values), strict=True)):
         own = 1 + max((depth.get(s.element_hash(), -1) for s in ca.symvar(value)), default=-1)

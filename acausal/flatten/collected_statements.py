@@ -13,7 +13,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.component_equations import Equations, collect, collect_initial
-from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
+from acausal.flatten.discontinuities import create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, located_statements, method_origin, with_place
@@ -48,7 +48,7 @@ class CollectedStatements:
     declared_by_parts: list[tuple[Expr, Expr]]
     energies: dict[str, Any]
     pending: Pending
-    discretes: list[Discrete]
+    discretes: list[Expr]
     discrete_starts: list[ca.SX]
     variables: ca.SX
     index: dict[int, int]
@@ -69,12 +69,12 @@ def collect_statements(
         build = Instantiation(model, overrides, free)
         components = build.components
         graph = build_graph(components)
-        discretes = create_discretes(components)
+        declared_discretes = create_discretes(components)
         arrays = create_variables(components, graph.same)
         variables = stacked([vec(a.expr.sx) for a in arrays])
         index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
         pending.varying = pending.discrete | index.keys()
-        discrete_values = discrete_starts(discretes)
+        discrete_values = discrete_starts(declared_discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
         build.give_inputs(connected_values(graph.wires))
         # Limit against endless loops: far more statements than a component needs, but reached within seconds.
@@ -91,7 +91,7 @@ def collect_statements(
         _check_observed(components)
         for symbol, table, raised in pending.tables:
             build.parameters.add_table(symbol, table, raised)
-        discretes += [Discrete(variable, None, build.root) for variable, _ in pending.memories]
+        discretes = [*(d.expr for d in declared_discretes), *(variable for variable, _ in pending.memories)]
         discrete_values += [start for _, start in pending.memories]
     finally:
         PENDING.reset(token)

@@ -27,15 +27,14 @@ Resolve = Callable[[list[ca.SX]], list[ca.SX]]
 
 @dataclass(frozen=True)
 class Discrete:
-    """A discrete variable with its symbols; `declared` is None for one without a field."""
+    """A declared discrete variable with its symbols."""
 
     expr: Expr
-    declared: f.Variable | None
+    declared: f.Variable
     owner: Component
 
     def start(self) -> ca.SX:
         """Return the initial value, a column; the variables of the owner must exist."""
-        assert self.declared is not None
         given = self.owner._values.get(self.declared.name)
         value = given.value if isinstance(given, f.InitialValue) else f.evaluate(self.declared.start, self.owner)
         given = as_expr(plain(value, self.expr.unit, f"start of `{self.expr.name}`"))
@@ -133,7 +132,7 @@ def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
     """Return the initial values of the discrete variables, a column each."""
     PENDING.get().watches = False
     try:
-        return [with_place(d.start, value_origin(d.owner, d.expr.name.rpartition(".")[2])) for d in discretes]
+        return [with_place(d.start, value_origin(d.owner, d.declared.name)) for d in discretes]
     finally:
         PENDING.get().watches = True
 
@@ -149,14 +148,14 @@ def promises(pending: Pending, resolve: Resolve) -> tuple[Promise, ...]:
     )
 
 
-def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Guard, ...]:
+def guards(pending: Pending, discretes: list[Expr], resolve: Resolve) -> tuple[Guard, ...]:
     """Return the event conditions of switches and of `when` statements.
 
     Parameters
     ----------
     pending : Pending
         Requests of equations.
-    discretes : list of Discrete
+    discretes : list of Expr
         Discrete variables, in the order of their numbers.
     resolve : callable
         Replaces placeholders of derivatives.
@@ -178,7 +177,7 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     return tuple(found)
 
 
-def laws(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Law, ...]:
+def laws(pending: Pending, discretes: list[Expr], resolve: Resolve) -> tuple[Law, ...]:
     """Return the set-valued laws; for the arguments see `guards`."""
     place, found = _places(discretes), list[Law]()
     sx = iter(resolve([e.sx for law, _ in pending.laws for e in (law.speed, law.rate, law.limit)]))
@@ -194,6 +193,6 @@ def laws(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple
     return tuple(found)
 
 
-def _places(discretes: list[Discrete]) -> dict[int, int]:
+def _places(discretes: list[Expr]) -> dict[int, int]:
     """Return the number of each discrete scalar by the hash of its symbol."""
-    return {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(d.expr.sx))}
+    return {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(d.sx))}

@@ -15,7 +15,7 @@ def discontinuities(raw: CollectedStatements, resolved: Any) -> FlatDiscontinuit
     return FlatDiscontinuities(
         tuple(switch for switch, _ in raw.pending.switches),
         guards(raw.pending, raw.discretes, resolved),
-        tuple(zip([vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
+        tuple(zip([vec(d.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
         tuple(zip(resolved(raw.pending.differentiated), raw.pending.derivative_origins, strict=True)),
         promises(raw.pending, resolved),
         laws(raw.pending, raw.discretes, resolved),

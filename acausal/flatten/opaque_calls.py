@@ -11,7 +11,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin, value_origin
 from acausal.instructions import LOOKUPS
 from acausal.language.functions import feedback, initial, time
-from acausal.symbols import scalars, stacked, vec
+from acausal.symbols import called, scalars, stacked, vec
 
 if TYPE_CHECKING:
     from acausal.flatten.collected_statements import CollectedStatements
@@ -36,7 +36,7 @@ def refuse_opaque_expressions(raw: CollectedStatements) -> None:
     everything = _column([*[sx for sx, _ in stated], *others])
     known = [raw.variables, stacked(raw.build.parameters.symbols), _column(_requested(raw))]
     function = ca.Function("all", known, [everything], {"allow_free": True})
-    if set(function.get_function()) - set(LOOKUPS):
+    if not LOOKUPS.keys() >= set(function.get_function()):
         raise DeclarationError(
             f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function whose operations are unknown, "
             "such as an interpolant or an external function. Write a table with table(x, Table(...)); call a function of "
@@ -101,7 +101,7 @@ def _undeclared(symbol: ca.SX) -> str:
 def _requested(raw: CollectedStatements) -> list[ca.SX]:
     """Return the symbols that expressions may contain besides variables and parameters."""
     pending = raw.pending
-    columns = [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
+    columns = [d.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
     return columns + [symbol for symbol, _ in (*pending.switches, *pending.derivatives)]
 
 
@@ -124,4 +124,4 @@ def _column(entries: Iterable[ca.SX]) -> ca.SX:
 
 def _calls(expression: ca.SX) -> bool:
     """Return whether an expression contains opaque calls."""
-    return bool(set(ca.Function("one", [], [expression], {"allow_free": True}).get_function()) - set(LOOKUPS))
+    return not called(expression) <= LOOKUPS.keys()

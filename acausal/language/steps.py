@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Any
 
 import casadi as ca
@@ -34,7 +33,7 @@ def maximum(a: Any, b: Any, *, smooth: Any = 0) -> Any:
         result is too large where both are equal: (a + b + sqrt((a - b)^2 + smooth^2)) / 2, without events.
     """
     if is_deferred(a, b, smooth):
-        return Deferred(partial(_maximum), (a, b, smooth))
+        return Deferred(_maximum, (a, b, smooth))
     return _maximum(a, b, smooth)
 
 

@@ -70,7 +70,7 @@ class Statistics(Mapping[str, Any]):
     doubts : list of str
         Components used outside their range of validity.
     held_inputs : dict of str to float
-        Inputs of the whole model that were constant, with their values.
+        Inputs of the whole model that were constant, with their values; computed on first access.
     stopped : str
         Why the run ended before its stop time.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
@@ -114,7 +114,7 @@ class Statistics(Mapping[str, Any]):
     redundant_in_parts: Later[list[dict[str, Any]]] = Later(list)
     independent_states: Later[list[str]] = Later(list)
     doubts: list[str] = field(default_factory=list)
-    held_inputs: dict[str, float] = field(default_factory=dict)
+    held_inputs: Later[dict[str, float]] = Later(dict)
     operations: int | None = None
     stopped: str | None = None
     energy_supplied: float | None = None

@@ -221,6 +221,7 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
 def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics:
     integrator, trace, begun = done.integrator, done.integrator.trace, done.begun
     compiled, settings, way, trials = integrator.compiled, integrator.settings, integrator.way, list(trace.orders)
+    p = integrator.problem.p
     steps = Counter[str]()
     for key, n in trace.methods.items():
         steps[METHODS[key].name] += n
@@ -254,7 +255,7 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         loops=lambda: loops_at(compiled.reduced, begun.found(compiled)),
         redundant_in_parts=lambda: parts_at(compiled.reduced, begun.found(compiled)),
         independent_states=lambda: list(begun.independent_states),
-        held_inputs=held_inputs(compiled.reduced.flat, integrator.problem.p),
+        held_inputs=lambda: held_inputs(compiled.reduced.flat, p),
     )
 
 
