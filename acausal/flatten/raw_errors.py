@@ -111,10 +111,7 @@ def _of_casadi(name: str, error: Exception) -> str:
             "a function of CasADi takes symbols of CasADi, not an expression of acausal: Expr(function(self.x.sx)), "
             "with Expr from acausal."
         )
-    return (
-        "CasADi's table cannot take an expression of acausal. Write it as piecewise((y0 + (x - x0) * slope, x < x1), "
-        "..., otherwise), or as a polynomial."
-    )
+    return "CasADi's table cannot take an expression of acausal. Write it as table(x, Table([x0, x1], [y0, y1]))."
 
 
 def _not_implemented(error: NotImplementedError) -> str:

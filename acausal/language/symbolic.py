@@ -13,7 +13,6 @@ NUMPY_FUNCTIONS: dict[str, Callable[..., Any]] = {}
 
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan2", "exp", "log", "tanh", "sqrt", "sign", "dot", "cross")
-_TABLE = "a table as piecewise((y0 + (x - x0) * slope, x < x1), ..., otherwise), or as a polynomial"
 _STEPS = (
     "the steps as a discrete variable, when(condition, reinit(...)), or piecewise((value, condition), ..., otherwise)"
 )
@@ -24,11 +23,13 @@ INSTEAD = {
     "hypot": "sqrt(a**2 + b**2)",
     "where": "piecewise((a, condition), b)",
     "select": "piecewise((a, condition), (b, other), otherwise)",
-    "clip": "piecewise((low, x < low), (high, x > high), x)",
-    "maximum": "piecewise((a, a > b), b) for the greater of two",
-    "minimum": "piecewise((a, a < b), b) for the lesser of two",
+    "clip": "acausal's clip(x, low, high)",
+    "maximum": "acausal's maximum(a, b)",
+    "minimum": "acausal's minimum(a, b)",
+    "floor": "acausal's floor(x)",
+    "remainder": "acausal's mod(x, y)",
     "heaviside": "piecewise((1, x > 0), 0)",
-    "interp": _TABLE,
+    "interp": "table(x, Table([x0, x1], [y0, y1]))",
     "sum": "sum(v)",
     "mean": "sum(v) / 3, with the number of entries",
     "arctan": "atan2(x, 1)",
@@ -49,7 +50,7 @@ INSTEAD = {
     "gradient": "der(x) for the derivative with respect to time",
     "diff": "der(x) for the derivative with respect to time",
     "trapz": "the integral as a state, der(s) == x",
-} | dict.fromkeys(("floor", "ceil", "rint", "trunc", "round", "around", "remainder", "fmod", "floor_divide"), _STEPS)
+} | dict.fromkeys(("ceil", "rint", "trunc", "round", "around", "fmod", "floor_divide"), _STEPS)
 INSTEAD |= dict.fromkeys(("hstack", "vstack", "stack", "concatenate", "append", "array"), _TUPLE)
 
 
