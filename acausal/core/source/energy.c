@@ -7,6 +7,8 @@
 #define MOST 16384    /* where a motion is simple, a step may have thousands of turns */
 #define BATCH 8       /* panels that are evaluated at once */
 #define CAUTION 300   /* times the error that is expected */
+#define FAINT 1e-9    /* of the greater power: the other one, where it is smaller, need not be integrated as exactly */
+#define ROUNDED 1e-13 /* of the stored energy: smaller errors do not show in its change */
 
 /* The same where the equations have no unique solution within a short step: powers are taken from its ends. */
 static int32_t add_between_ends(ac_instance *i, double from, double to) {
@@ -19,7 +21,7 @@ static int32_t add_between_ends(ac_instance *i, double from, double to) {
     return failed;
 }
 
-/* Integrals of the powers over a time in so many panels, estimates of their errors, and the largest powers. With the cubic c_0 + c_1 t + c_2 t^2 + c_3 t^3
+/* Integrals of the powers over a time in so many panels, estimates of their errors, and the largest powers and stored energy. With the cubic c_0 + c_1 t + c_2 t^2 + c_3 t^3
    through the four nodes of a panel, t from -1 to 1, a power of amplitude A has terms of about c_3^2 / (20 A) t^6 and
    c_2^3 / (90 A^2) t^6, of which the rule misses 0.03 of the panel's length. */
 static int32_t integrate(ac_instance *i, double from, double h, int32_t panels, double *largest, double *sum, double *error) {
@@ -34,7 +36,7 @@ static int32_t integrate(ac_instance *i, double from, double h, int32_t panels, 
         ac_sample_step(i, rows);
         const int32_t failed = ac_sample_energies(i, rows);
         if (failed) return failed;
-        for (int j = 0; j < 2; j++) {
+        for (int j = 0; j < 3; j++) {
             for (int32_t k = 0; k < rows; k++) largest[j] = fmax(largest[j], fabs(i->samples.found[3 * k + j]));
         }
         for (int32_t k = 0; k < some; k++) {
@@ -55,12 +57,14 @@ int32_t ac_add_work(ac_instance *i, double from, double to) {
     const double step = i->now.to - i->now.from, h = to - from;
     if (!i->of->row_tape[AC_ENERGIES].outputs || !(h > 0) || !(step > 0)) return AC_OK;
     if (i->now.crosses) return add_between_ends(i, from, to);
-    double sum[2], error[2], largest[2] = {0, 0};
+    double sum[2], error[2], largest[3] = {0, 0, 0};
     for (int32_t panels = FEWEST;; panels *= 2) {
         const int32_t failed = integrate(i, from, h, panels, largest, sum, error);
         if (failed) return failed;
-        const double enough = i->now.tolerance * h;
-        if (panels >= MOST || (error[0] <= enough * largest[0] && error[1] <= enough * largest[1])) break;
+        const double faint = FAINT * fmax(largest[0], largest[1]), rounded = ROUNDED * largest[2];
+        int enough = 1;
+        for (int j = 0; j < 2; j++) enough &= error[j] <= i->now.tolerance * h * fmax(largest[j], faint) + rounded;
+        if (enough || panels >= MOST) break;
     }
     for (int j = 0; j < 2; j++) i->energy[j] += sum[j];
     return AC_OK;
