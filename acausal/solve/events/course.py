@@ -156,11 +156,13 @@ class Course:
             while at.time < stop:
                 if self.integrator.limits:
                     self.integrator.limits.check(at, self.integrator.trace)
-                at = self._passed(self.hybrid.go(at, min(stop, self.rescue.until, self.orders.until), self.weak), stop)
+                passed = self.hybrid.go(at, min(stop, self.rescue.until, self.orders.until), self.weak)
+                at = self._passed(passed, stop)
                 self.rescue.reached(at.time)
                 self.orders.reached(at.time)
                 self.integrator.report(at.time)
-                if self.crossed is not None and at.time < end:
+                acts = self.crossed is not None or (passed.ends and self.agenda.is_planned(at))
+                if acts and at.time < end:
                     at = self._at_row(at)
             if stop < end:
                 self.hybrid.restart()

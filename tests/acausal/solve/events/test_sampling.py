@@ -29,7 +29,7 @@ from acausal.core import run as core
 from acausal.core.run import Run
 from components import Revolute
 from components.rotational import Torque
-from models import FlexiblePendulum, FourBar
+from models import FlexiblePendulum, FourBar, SliderCrank
 from tests.benchmarks.events.scenes import SampledPendulum
 from tests.shared import pairwise
 
@@ -378,3 +378,21 @@ def test_a_sample_is_on_a_break_where_rounding_alone_is_between_them(intervals: 
             run = ac.simulate(compiled, stop_time=2.05, intervals=intervals, method=method, parameters=given)
             assert run["x"][-1] == pytest.approx(np.exp(end - 2.05) - np.exp(-2.05), abs=5e-5)
             assert abs(run["n"][-1] - (np.floor(2.05 / period + 1e-6) + 1)) <= 1
+
+
+class Counted(SliderCrank):
+    """Slider-crank with a count of instants, of which rounding errors part some from outputs."""
+
+    count: Scalar = discrete("instants up to now")
+    due: Scalar = discrete("next instant", unit="s")
+
+    def equations(self):
+        yield from super().equations()
+        yield when(time >= self.due, reinit(self.count, self.count + 1), reinit(self.due, self.due + 0.01), at_start=True)
+
+
+@pytest.mark.filterwarnings("ignore:rod_bar")
+@pytest.mark.parametrize("method", [None, "idas", "rosenbrock"])
+def test_an_output_at_an_instant_shows_what_it_changes(method: str | None) -> None:
+    result = ac.simulate(Counted(), intervals=20, method=method)
+    np.testing.assert_array_equal(result["count"], np.floor(result.time / 0.01 + 1e-9) + 1)
