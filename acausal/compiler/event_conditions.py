@@ -11,6 +11,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
+from acausal.compiler.function_calls import FunctionCalls
 from acausal.compiler.rounding import terms
 from acausal.compiler.set_valued_laws import SetValuedLaws
 from acausal.compiler.time_conditions import functions, scheduled_times, time_comparisons, truth
@@ -83,6 +84,12 @@ class EventConditions:
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
         column = stacked(entries)
         return ca.densify(self.reduced.running.resolve(column, unprojected))
+
+    @cached_property
+    def calls(self) -> FunctionCalls:
+        """The functions that are called at events."""
+        discretes = self.reduced.constants[self.n_switches : self.n_switches + self.n_discretes]
+        return FunctionCalls(self.guards, self._resolve, discretes)
 
     @cached_property
     def laws(self) -> SetValuedLaws:

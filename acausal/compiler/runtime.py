@@ -17,7 +17,7 @@ from acausal.instructions import READABLE
 from acausal.language.functions import time
 from acausal.symbols import dense, picked, stacked
 
-VERSION = 8  # of the file format, as in unit.c
+VERSION = 9  # of the file format, as in unit.c
 INNER = 4  # role of a parameter that no importer sees, as in instance.h
 NOTHING = ca.SX(0, 1)
 # Why what is differentiated must not jump, and what to do instead.
@@ -101,6 +101,7 @@ class Runtime:
             "scalesat": _pattern(self._slopes),
             "jumps": self.tape(self._jumps[0]),
             "jumpsto": ints([k for place in self._jumps[1] for k in place]),
+            "given": self.tape(self.compiled.guards.calls.arguments),
             "closing": self.tape(ca.vertcat(self._constraints, _entries(self._closing))),
             **self._laws,
             "unbroken": self._continuous,
@@ -120,21 +121,25 @@ class Runtime:
         watched, levels = len(self.watched), len(self.levels)
         return ints([*counts, shown, watched, timed, instants, jumps, constraints, inputs, levels])
 
-    def rules(self, timed: Sequence[int]) -> bytes:
-        """Return the section of conditions: watched ones, then those of time alone.
+    def rules(self, timed: Sequence[int]) -> dict[str, bytes]:
+        """Return the sections of conditions, watched ones, then those of time alone, and of the functions that they call.
 
-        Of each, the switch that it sets, whether it holds at 0 and acts at the start, its first jump, how many, and whether
-        it compares time with discrete variables alone.
+        Of each condition, the switch that it sets, whether it holds at 0 and acts at the start, its first jump, how many, and
+        whether it compares time with discrete variables alone. Of each call, its condition, its first result, and how many.
         """
-        guards, found = self.compiled.guards, list[int]()
+        guards, found, calls, results = self.compiled.guards, list[int](), list[int](), list[int]()
         first = np.cumsum([0, *(len(guard.jumps) for guard in guards.guards)]).tolist()
         clocked = dict(zip(guards.watched, guards.clocked, strict=True))
-        for k in (*self.watched, *timed):
+        order = [*self.watched, *timed]
+        for k in order:
             guard = guards.guards[k]
             switch = k if k < guards.n_switches else -1
             numbers = switch, guard.inclusive, guard.at_start, first[k], len(guard.jumps), clocked.get(k, False)
             found += map(int, numbers)
-        return ints(found)
+        for k, call in guards.calls.ordered:
+            calls += [order.index(k), len(results) // 2, len(call.results)]
+            results += [place for pair in zip(call.outputs, call.results, strict=True) for place in pair]
+        return {"rules": ints(found), "calls": ints(calls), "resultto": ints(results)}
 
     def tape(self, column: ca.SX) -> bytes:
         """Return an expression of x, z, time, parameters and constants as a section holds it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_void_p
+from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_void_p
 from functools import cache
 
 import numpy as np
@@ -56,6 +56,9 @@ class SquareData(Structure):
     )
 
 
+# Calls a function at an event: number of the call, and time; returns whether it fails.
+CALL = CFUNCTYPE(c_int32, c_int32, c_double)
+
 # Result and arguments of each function; arrays are addresses.
 FUNCTIONS = {
     "ac_version": (c_char_p, ()),
@@ -84,6 +87,7 @@ FUNCTIONS = {
     "ac_run_begin": (c_int32, (c_void_p, c_void_p, c_double, *[c_void_p] * 5)),
     "ac_run_go": (c_int32, (c_void_p, c_void_p, c_void_p)),
     "ac_run_happen": (c_int32, (*[c_void_p] * 5, POINTER(c_int32))),
+    "ac_run_functions": (None, (c_void_p, CALL, c_void_p, c_void_p)),
     "ac_run_values": (None, (c_void_p,) * 6),
     "ac_run_undefined": (c_double, (c_void_p,) * 3),
 }

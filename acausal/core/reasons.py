@@ -27,7 +27,7 @@ class Doubt(IntEnum):
 
     Closed loops are in a singular configuration, or creep towards one; algebraic unknowns jump; a condition has no value;
     conditions do not settle; what is differentiated jumps; a jump gives no finite number; closed loops do not close after it;
-    or two statements set one variable to different values.
+    two statements set one variable to different values; or a function that is called fails.
     """
 
     SINGULAR = 16
@@ -38,3 +38,4 @@ class Doubt(IntEnum):
     NO_NUMBER = 21
     APART = 22
     CONTRADICTION = 23
+    FUNCTION = 24

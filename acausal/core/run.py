@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from ctypes import Structure, byref, c_double, c_int32, c_int64, c_void_p
 from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
 
-from acausal.core.library import address, loaded
+from acausal.core.library import CALL, address, loaded
 from acausal.locks import unlocked
 
 
@@ -167,6 +168,14 @@ class Run:
             self._library.ac_instance_free(self._memory)
         if getattr(self, "_unit", None):
             self._library.ac_unit_free(self._unit)
+
+    def calls(self, function: Callable[[int, float], int], arguments: np.ndarray, results: np.ndarray) -> None:
+        """Take what calls functions at events, by the number of a call and the time; it returns whether that fails.
+
+        The arguments and results of all calls stand in the arrays. Without it, functions keep their results.
+        """
+        self._function = CALL(function), arguments, results  # the library keeps their addresses
+        self._library.ac_run_functions(self._memory, self._function[0], address(arguments), address(results))
 
     def begin(
         self,

@@ -101,7 +101,7 @@ class Content:
             "timed": runtime.tape(self._truths),
             "instants": runtime.tape(self._instants),
             "limits": runtime.tape(stacked([limit.value for limit in self._limits])),
-            "rules": runtime.rules(self._timed),
+            **runtime.rules(self._timed),
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),

@@ -22,6 +22,7 @@ from acausal.export.archive import check_fmu, source_names, write_fmu
 from acausal.export.beginning import begin
 from acausal.export.content import Content, watched
 from acausal.export.description import Description, Variable, is_solved
+from acausal.export.function_calls import refuse_calls
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
 from acausal.export.table import TIME, Table
@@ -78,6 +79,7 @@ def export_fmu(
     """
     check_fmu(path, fmi_version, platforms)
     compiled, p = _freed(model, parameters, free) if free else ready(model, parameters)
+    refuse_calls(compiled)
     own = effective_settings(compiled, None, {"stop_time": stop_time})["stop_time"]
     asked = {"stop_time": 1.0 if own is None else own, "tolerance": tolerance, "initial": initial, "accuracy": None}
     others = dict.fromkeys(("intervals", "method", "constraints", "max_order"))

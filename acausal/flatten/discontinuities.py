@@ -20,6 +20,7 @@ from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.language.pending import PENDING, Pending
 from acausal.language.quantities import plain
+from acausal.language.when_statements import Call
 from acausal.symbols import dense, scalars, stacked, vec
 
 Resolve = Callable[[list[ca.SX]], list[ca.SX]]
@@ -57,16 +58,33 @@ class Jump:
 
 
 @dataclass(frozen=True)
+class FunctionCall:
+    """Call of a function of time and its arguments.
+
+    The results are kept in discrete variables, numbers of which are `results`; at the next event `outputs` take them over,
+    or are the same.
+    """
+
+    function: Callable[..., Any]
+    arguments: tuple[ca.SX, ...]
+    argument_shapes: tuple[tuple[int, ...], ...]
+    result_shapes: tuple[tuple[int, ...], ...]
+    results: tuple[int, ...]
+    outputs: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class Guard:
     """An event condition: its indicator `excess` is negative while it holds; at 0 it holds if `inclusive`.
 
-    The conditions of a model are those of its switches, then one for each `when`, with its jumps.
+    The conditions of a model are those of its switches, then one for each `when`, with its jumps and calls.
     """
 
     condition: Condition
     origin: Origin
     jumps: tuple[Jump, ...] = ()
     at_start: bool = False
+    calls: tuple[FunctionCall, ...] = ()
 
     @cached_property
     def excess(self) -> ca.SX:
@@ -173,8 +191,23 @@ def guards(pending: Pending, discretes: list[Expr], resolve: Resolve) -> tuple[G
             target, value = resolve([dense(vec(s.sx)) for s in (jump.variable, jump.value)])
             for t, v in zip(scalars(target), scalars(value), strict=True):
                 jumps.append(Jump(t, v, place.get(t.element_hash()) if t.is_symbolic() else None))
-        found.append(Guard(condition, origin, tuple(jumps), when.at_start))
+        calls = tuple(_function_call(call, place, resolve, origin) for call in when.calls)
+        found.append(Guard(condition, origin, tuple(jumps), when.at_start, calls))
     return tuple(found)
+
+
+def _function_call(call: Call, place: dict[int, int], resolve: Resolve, origin: Origin) -> FunctionCall:
+    numbers = []
+    for group in (call.results, call.outputs):
+        entries = [s for variable in group for s in scalars(dense(vec(variable.sx)))]
+        numbers.append(tuple(place.get(s.element_hash(), -1) if s.is_symbolic() else -1 for s in entries))
+    if -1 in (*numbers[0], *numbers[1]):
+        raise DeclarationError(
+            f'{origin}: the results of a call must be discrete variables. Declare them discrete("...").'
+        )
+    arguments = resolve([dense(vec(argument.sx)) for argument in call.arguments])
+    shapes = tuple(a.shape for a in call.arguments), tuple(r.shape for r in call.results)
+    return FunctionCall(call.function, tuple(arguments), *shapes, *numbers)
 
 
 def laws(pending: Pending, discretes: list[Expr], resolve: Resolve) -> tuple[Law, ...]:

@@ -27,7 +27,8 @@ def refuse_opaque_expressions(raw: CollectedStatements) -> None:
         (c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.switch_origins, strict=False)
     ]
     for when, origin in raw.pending.whens:
-        stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
+        given = [jump.value for jump in when.jumps] + [a for call in when.calls for a in call.arguments]
+        stated += [(e.sx, origin) for e in (when.condition.excess, *given)]
     for law, origin in raw.pending.laws:
         stated += [(e.sx, origin) for e in (law.speed, law.rate, law.limit)]
     values = [(a, e.sx) for a in raw.arrays for e in (a.start, a.nominal) if not e.sx.is_constant()]

@@ -78,7 +78,11 @@ def one_of(choices: tuple[Any, ...]) -> str:
     """Return the text of the choices for a message."""
     if choices and all(isinstance(c, bool) for c in choices):
         return " or ".join(map(repr, choices))
-    return f"one of {', '.join('a function' if c is callable else shown_or_kind(c) for c in choices)}"
+    return (
+        "a function"
+        if choices == (callable,)
+        else f"one of {', '.join('a function' if c is callable else shown_or_kind(c) for c in choices)}"
+    )
 
 
 def _of_class(value: Any, declared: f.Structural, where: str) -> Any:

@@ -66,7 +66,7 @@ from acausal.language.symbolic import NUMPY_FUNCTIONS
 from acausal.language.table import Table
 from acausal.language.types import Matrix33, Scalar, Vector3
 from acausal.language.validity_statements import Expectation, Requirement, Separation, apart, expect, require
-from acausal.language.when_statements import When, reinit, when
+from acausal.language.when_statements import Call, When, call, reinit, when
 
 # Registered here because these modules import the class of expressions.
 copyreg.pickle(Expr, pickling.reduce_expression)
@@ -78,6 +78,7 @@ __all__ = [
     "DEFAULT",
     "NEVER",
     "PREFER",
+    "Call",
     "Component",
     "Condition",
     "Connector",
@@ -102,6 +103,7 @@ __all__ = [
     "asin",
     "atan2",
     "branch",
+    "call",
     "chain",
     "clip",
     "connect",

@@ -1,14 +1,15 @@
-"""Event statements: `yield when(condition, reinit(variable, value), ...)`."""
+"""Event statements: `yield when(condition, reinit(variable, value), call(function, arguments, results), ...)`."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition
-from acausal.language.expression import Equation, Expr, equation
+from acausal.language.expression import Equation, Expr, as_expr, equation
 
 
 @dataclass(frozen=True)
@@ -20,12 +21,23 @@ class Reinit:
 
 
 @dataclass(frozen=True)
+class Call:
+    """A function, its arguments, and discrete variables: its results, and those that take them over at the next event."""
+
+    function: Callable[..., Any]
+    arguments: tuple[Expr, ...]
+    results: tuple[Expr, ...]
+    outputs: tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
 class When:
-    """Jumps of variables when a condition becomes true."""
+    """Jumps of variables and calls of functions when a condition becomes true."""
 
     condition: Condition
     jumps: tuple[Reinit, ...]
     at_start: bool
+    calls: tuple[Call, ...] = ()
 
 
 @checked_call
@@ -48,17 +60,41 @@ def reinit(variable: Any, value: Any) -> Reinit:
 
 
 @checked_call
-def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
-    """State the jumps at each event at which a condition becomes true; yield it in equations().
+def call(function: Callable[..., Any], arguments: Sequence[Any], results: Sequence[Any], outputs: Any = None) -> Call:
+    """State the call of a function at an event, inside when().
+
+    Parameters
+    ----------
+    function : callable
+        Called as function(time, *arguments), with numbers and arrays; returns one value, or a tuple of values for several
+        results. What it keeps lives in its object, of which each run takes a copy and calls `reset()`, if it has that.
+    arguments : sequence of Expr
+        Values just before the event, except for the results of other functions that are called at it: those are new.
+    results : sequence of Expr
+        Discrete variables.
+    outputs : sequence of Expr, optional
+        Discrete variables, one for each result, that take it over at the next event.
+    """
+    taken = results if outputs is None else outputs
+    if not callable(function):
+        raise DeclarationError(f"call needs a function first, such as call(f, (self.u,), (self.y,)), not {function!r}.")
+    if len(taken) != len(results):
+        raise DeclarationError(f"call has {len(results)} results, and {len(taken)} outputs; they must be as many.")
+    return Call(function, tuple(map(as_expr, arguments)), tuple(results), tuple(taken))
+
+
+@checked_call
+def when(condition: Any, *actions: Reinit | Call, at_start: bool = False) -> When:
+    """State what happens at each event at which a condition becomes true; yield it in equations().
 
     Parameters
     ----------
     condition : Condition
         Comparison of two scalars, such as self.h < 0.
-    *jumps : reinit(...)
-        Jumps, all computed from the values just before the event.
+    *actions : reinit(...), call(...)
+        Jumps, all computed from the values just before the event, and calls of functions.
     at_start : bool
-        True if the jumps also take place at the start, if the condition holds there.
+        True if they also take place at the start, if the condition holds there.
 
     Examples
     --------
@@ -71,9 +107,11 @@ def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
         raise DeclarationError(
             f"when needs a condition that compares two scalars by <, <=, > or >=, such as {form}.{late}{order}"
         )
-    if not jumps or not all(isinstance(jump, Reinit) for jump in jumps):
-        listed = " Give them without a list." if any(isinstance(jump, list | tuple) for jump in jumps) else ""
+    jumps = tuple(action for action in actions if isinstance(action, Reinit))
+    calls = tuple(action for action in actions if isinstance(action, Call))
+    if not actions or len(jumps) + len(calls) < len(actions):
+        listed = " Give them without a list." if any(isinstance(action, list | tuple) for action in actions) else ""
         raise DeclarationError(
             f"when needs one or more reinit(variable, value) after its condition, such as {form}.{listed}"
         )
-    return When(condition, jumps, at_start)
+    return When(condition, jumps, at_start, calls)

@@ -12,7 +12,7 @@ import scipy
 
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
-from acausal.errors import InitializationError
+from acausal.errors import InitializationError, caution
 from acausal.flatten.model_inputs import inputs_of
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
@@ -143,13 +143,15 @@ def linearize(
     A warning is given if the point is neither at rest nor in steady rotation, and if the matrices change as a cyclic
     coordinate turns, so that the linear system is periodic.
 
-    Discrete variables keep their values: a sampled controller does not act.
+    Discrete variables keep their values: a sampled controller does not act. A warning names functions that are not called.
     """
     how = effective_settings(model, parameters, {"initial": initial})["initial"]
     check_number("time", time)
     compiled, p = ready(model, at_time(model, parameters, inputs, time))
     problem = Problem(compiled, p)
     at = first_point(problem, time, how)
+    if owners := compiled.guards.calls.owners:
+        caution(f"the functions of {owners} are not called: the linear system holds their outputs constant.")
     _refuse_singular(problem, at, how == "steady")
     own, nx = _inputs(compiled), compiled.nx
     slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in own]))

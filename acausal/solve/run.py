@@ -204,7 +204,7 @@ def _raise(done: _Done, result: Result) -> NoReturn:
             text = failure_text(done.integrator, done.at, done.begun.redundancy, failure)
         error = SimulationError(text, result.with_stats(stopped=text))
         error.begun = isinstance(failure, Chattering) or failure.time > done.at.time
-        raise error
+        raise error from failure.__cause__
     failure.result = result.with_stats(stopped="interrupted")
     raise failure
 

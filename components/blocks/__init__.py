@@ -52,6 +52,7 @@ from components.blocks.product import Product
 from components.blocks.pulse import Pulse
 from components.blocks.ramp import Ramp
 from components.blocks.rs_flip_flop import RSFlipFlop
+from components.blocks.sampled import Sampled
 from components.blocks.sampler import Sampler
 from components.blocks.saw_tooth import SawTooth
 from components.blocks.second_order import SecondOrder
@@ -131,6 +132,7 @@ __all__ = [
     "Pulse",
     "RSFlipFlop",
     "Ramp",
+    "Sampled",
     "Sampler",
     "SawTooth",
     "SecondOrder",

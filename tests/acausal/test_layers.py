@@ -28,7 +28,7 @@ MAY = {
     "structure": {"errors"},
     "reduce": BASE | {"language", "flatten", "structure"},
     "core": BASE,
-    "compiler": BASE | {"language", "flatten", "reduce", "core"},
+    "compiler": BASE | {"language", "flatten", "structure", "reduce", "core"},
     "animation": BASE | {"language"},
     "result": BASE | {"language", "flatten", "animation"},
     "solve": BASE | {"language", "flatten", "structure", "reduce", "core", "compiler", "result"},

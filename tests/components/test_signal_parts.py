@@ -39,7 +39,8 @@ def signals(name):
     given |= {n: LIGHT for n in logical if n in given}
     given |= {"u": (WAVE,)} if cls.__name__ == "StateSpace" else {}
     given |= {"limit2": -OTHER} if "limit2" in given else {}
-    return cls, given, {"data": DATA[cls.__name__]} if cls.__name__ in DATA else {}
+    needed = {"f": lambda time, u: 2 * u} if cls.__name__ == "Sampled" else {}
+    return cls, given, {"data": DATA[cls.__name__]} if cls.__name__ in DATA else needed
 
 
 def with_block(name):

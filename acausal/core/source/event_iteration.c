@@ -197,6 +197,8 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     int32_t k = next_jump(u, r->fires, 0), jumped = 0;
     if (k < 0) return AC_OK;
     const double *w = ac_run(i, AC_JUMPS), *projected = ac_run(i, AC_COORDINATES);
+    int32_t failed = ac_call_functions(i, r->fires);
+    if (failed) return failed;
     memset(held, 0, (size_t)e->nx * sizeof *held), memset(set_by, 0, (size_t)u->discretes * sizeof *set_by);
     for (int32_t j = 0; j < own->outputs; j++) i->x[u->coordinate[j]] = projected[own->output[j]];
     ac_put(before, i->x, e->nx);
@@ -205,7 +207,7 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
         for (int32_t j = u->guard[k].jump; j < end; j++) {
             const int32_t is_state = u->jump[2 * j], to = u->jump[2 * j + 1];
             double *variable = is_state ? i->x + to : i->c + u->switches + to;
-            const int32_t failed = set(i, variable, w[t->output[j]], is_state ? u->nominal[to] : 0, is_state ? held + to : set_by + to, k);
+            failed = set(i, variable, w[t->output[j]], is_state ? u->nominal[to] : 0, is_state ? held + to : set_by + to, k);
             if (failed) return failed;
             jumped |= is_state;
         }

@@ -55,6 +55,8 @@ AC_PUBLIC int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_st
 /* Let happen what happens at the present: what the clock changes, and watched conditions that change now, as of `crossed`. Returns whether
    anything changed; where it fails -1, and why. `acts`: (watched + timed) conditions to blame. */
 AC_PUBLIC int32_t ac_run_happen(ac_instance *i, const double *c, const double *fires, const double *crossed, double *acts, int32_t *why);
+/* The function that is called at events, and arrays of the arguments and results of all calls; before a run. */
+AC_PUBLIC void ac_run_functions(ac_instance *i, ac_function *function, double *arguments, double *results);
 /* Values at the present: states, algebraic unknowns, constants, conditions that hold, indicators that change now. */
 AC_PUBLIC void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *crossed);
 /* The time at which a condition has no value, with states and algebraic unknowns there. */

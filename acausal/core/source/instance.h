@@ -11,8 +11,8 @@
 /* Tapes beside those of the equations; their inputs are x, z, t, p, c, too; of the last two, then nominal values; of the last, then
    new constants and a time span. */
 enum {
-    AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_LAWS,
-    AC_CONTINUOUS, AC_TAPES
+    AC_HEAD, AC_SHOWN, AC_GUARDS, AC_SCALES, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_ARGUMENTS,
+    AC_LAWS, AC_CONTINUOUS, AC_TAPES
 };
 /* Square systems; their inputs are p, c, x, z, t: for all algebraic unknowns; for all unknowns at the start; for the algebraic
    unknowns that event indicators need, those that powers need; of the derivatives of the former, which are inputs behind t. */
@@ -31,6 +31,14 @@ enum { AC_LIMITED, AC_REQUIRED, AC_REQUIRED_AT_START };
 typedef struct {
     int32_t on, inclusive, at_start, jump, jumps, clocked;
 } ac_guard;
+
+/* A call of a function: the condition at which it happens; its results, from one on. */
+typedef struct {
+    int32_t guard, result, results;
+} ac_call;
+
+/* Calls a function; its arguments and results stand in arrays of the caller. Returns whether it fails. */
+typedef int32_t ac_function(int32_t call, double time);
 
 /* Constraints that are closed together, and the states that may change for that. */
 typedef struct {
@@ -59,7 +67,9 @@ struct ac_unit {
     const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     const int32_t *multiplier, *stands;     /* (constraints) places among z; (standing, 2) places of coordinates among z, and of their states */
-    int32_t standing, laws;                 /* numbers of those places and of set-valued laws */
+    int32_t standing, laws, calls;          /* numbers of those places, of set-valued laws and of calls */
+    const ac_call *call;                    /* (calls) in the order of data flow */
+    const int32_t *result;                  /* (results, 2) discrete variables: the output, and what becomes it at the next instant; or one */
     const int32_t *law;                     /* (laws, 5) places of mode, offset, shared, share and slip among the discrete variables */
     const int32_t *equation;                /* (nz) place of each equation of g among those of AC_ALGEBRAIC */
     const int32_t *gradient_start, *gradient_row, *law_start, *law_row; /* sparsity (nz, laws) in columns: of the derivatives of their
@@ -186,6 +196,8 @@ struct ac_instance {
     double energy[2];                       /* supplied and dissipated energy */
     struct ac_recorder *recorder;           /* of a run; NULL in Co-Simulation */
     ac_clock clock;                         /* of an instant of a run */
+    ac_function *function;                  /* of the caller of a run */
+    double *arguments, *results;            /* of all its calls */
     double *acts;                           /* (watched + timed) conditions that changed in an event iteration: those to blame where it fails */
     int32_t why;                            /* reason of the last failure */
     double *step_y, step_time;              /* a step as the integrator writes it */
@@ -207,7 +219,7 @@ void ac_put(double *to, const double *from, int32_t count);     /* copy; NULL: n
 int32_t ac_fail(ac_instance *i, int32_t status, const char *text);
 int32_t ac_refuse_chatter(ac_instance *i);                      /* events with hardly any motion between follow one another without end */
 int32_t ac_refuse(ac_instance *i, int32_t why, const char *text); /* the same with AC_FAILED for one of these reasons: */
-enum { AC_SINGULAR = 16, AC_FOLD, AC_UNDEFINED, AC_UNSETTLED, AC_DISCONTINUOUS, AC_NO_NUMBER, AC_APART, AC_CONTRADICTION };
+enum { AC_SINGULAR = 16, AC_FOLD, AC_UNDEFINED, AC_UNSETTLED, AC_DISCONTINUOUS, AC_NO_NUMBER, AC_APART, AC_CONTRADICTION, AC_FUNCTION };
 void ac_restart(ac_instance *i);
 void ac_moved(ac_instance *i);
 void ac_changed(ac_instance *i);
@@ -234,6 +246,7 @@ const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, cons
 int32_t ac_initial(ac_instance *i);
 int32_t ac_limits(ac_instance *i, int at_start);                /* what is broken: of parameters, or of variables at the start */
 int32_t ac_happen(ac_instance *i, ac_happened *found);
+int32_t ac_call_functions(ac_instance *i, const double *fires); /* before anything jumps */
 void ac_renew_inputs(ac_instance *i);
 double ac_near(const ac_instance *i);                           /* times that near are one */
 double ac_next_instant(ac_instance *i, double *between);

@@ -5,20 +5,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 8
+#define VERSION 9
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, TAPES = SQUARE + 3 * AC_SQUARES, ROW_TAPES = TAPES + AC_TAPES,
-    RULES = ROW_TAPES + AC_ROW_TAPES, JUMPS_TO, SCALE_PATTERN, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
+    RULES = ROW_TAPES + AC_ROW_TAPES, JUMPS_TO, CALLS, RESULTS_TO, SCALE_PATTERN, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
     DAMPED, NOMINAL, NATURAL, TOKEN, ORIGINS, LAWS_TO, LAW_PATTERNS, TABLES, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "kinks", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "settleof", "begin", "beginat", "beginof", "needed", "neededat", "neededof", "power", "powerat", "powerof",
-    "moving", "movingat", "movingof", "head", "shown", "guards", "scales", "timed", "instants", "jumps", "closing", "coords", "limits", "laws", "unbroken",
+    "moving", "movingat", "movingof", "head", "shown", "guards", "scales", "timed", "instants", "jumps", "closing", "coords", "limits", "given",
+    "laws", "unbroken",
     "watched",
     "energies",
-    "rules", "jumpsto", "scalesat", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
+    "rules", "jumpsto", "calls", "resultto", "scalesat", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
     "token", "origins", "lawsto", "lawsat", "tables",
 };
 
@@ -66,7 +67,7 @@ static int read_tapes(const ac_section *found, ac_unit *u) {
     const ac_equations *e = &u->parts.model.equations;
     const int32_t varying = e->nx + e->nz + 1, inputs = varying + e->np + e->nc;
     const int32_t outputs[AC_TAPES] = {
-        -1, u->shown, u->watched, -1, u->timed, u->instants, u->jumps, -1, -1, -1, -1, -1,
+        -1, u->shown, u->watched, -1, u->timed, u->instants, u->jumps, -1, -1, -1, -1, -1, -1,
     };
     for (int k = 0; k < AC_TAPES; k++) {
         const int64_t more = k == AC_CONTINUOUS ? (int64_t)varying + e->nc : k == AC_LAWS ? varying - 1 : 0;
@@ -133,6 +134,20 @@ static int read_rules(const ac_section *found, ac_unit *u) {
     for (int32_t k = 0; k < u->jumps; k++) {
         const int32_t *to = u->jump + 2 * k;
         if (!ac_within(to, 1, 2) || !ac_within(to + 1, 1, to[0] ? u->parts.model.equations.nx : u->discretes)) return 0;
+    }
+    return 1;
+}
+
+/* Calls of functions, whose results are discrete variables. */
+static int read_calls(const ac_section *found, ac_unit *u) {
+    const int32_t results = (int32_t)(found[RESULTS_TO].left / (2 * sizeof *u->result));
+    u->calls = (int32_t)(found[CALLS].left / sizeof *u->call);
+    const int32_t *n = integers(found[CALLS], 3 * (int64_t)u->calls);
+    u->call = (const ac_call *)n, u->result = integers(found[RESULTS_TO], 2 * (int64_t)results);
+    if (!n || !u->result || !ac_within(u->result, 2 * results, u->discretes)) return 0;
+    for (int32_t k = 0; k < u->calls; k++) {
+        const ac_call *c = &u->call[k];
+        if (!ac_within(&c->guard, 1, u->watched + u->timed) || c->result < 0 || c->results < 0 || c->result > results - c->results) return 0;
     }
     return 1;
 }
@@ -244,7 +259,7 @@ static void bind_tables(ac_unit *u) {
 
 static int read_all(const ac_section *found, ac_unit *u) {
     return ac_read_parts(found, &u->parts) && !u->parts.model.equations.powers && read_layout(found, u) && read_tapes(found, u)
-        && read_squares(found, u) && read_rules(found, u) && read_laws(found, u) && read_closing(found, u)
+        && read_squares(found, u) && read_rules(found, u) && read_calls(found, u) && read_laws(found, u) && read_closing(found, u)
         && read_limits(found, u) && read_numbers(found, u) && read_tables(found[TABLES], u);
 }
 

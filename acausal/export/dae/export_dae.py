@@ -18,6 +18,7 @@ from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.dae_listing import listing
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.json_values import encoded
+from acausal.export.function_calls import refuse_calls
 from acausal.export.local_columns import local_columns
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
@@ -58,6 +59,7 @@ def export_dae(
     """
     check_writable(path)
     compiled, p = ready(model, parameters)
+    refuse_calls(compiled)
     tables = getattr(p, "tables", {})
     own = replace(compiled.reduced.flat.parameters, tables=tables)
     reduced = replace(compiled.reduced, flat=replace(compiled.reduced.flat, parameters=own))

@@ -24,6 +24,7 @@ from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.order_trial import OrderTrial
 from acausal.solve.events.rests import ends_of_rests
 from acausal.solve.initialization.newton import NoConvergence
+from acausal.solve.integrate.functions import Functions
 from acausal.solve.integrate.integrator import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.rescue import Rescue
@@ -58,7 +59,8 @@ class Course:
         problem = integrator.problem
         self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
         settings = integrator.settings
-        self.instants = Instants(problem, settings.tolerance, span, settings.nominal, settings.energy)
+        functions = Functions(problem.compiled)
+        self.instants = Instants(problem, settings.tolerance, span, settings.nominal, settings.energy, functions)
         self.agenda = Agenda(self.guards, problem.p, np.union1d(times, self.breaks))
         self.hybrid = Hybrid(integrator, self.instants, times)
         self.rescue, self.orders = Rescue(integrator, times), OrderTrial(integrator, times)

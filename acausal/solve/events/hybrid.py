@@ -92,6 +92,7 @@ class Hybrid:
 
     def __init__(self, integrator: Integrator, instants: Instants | None, times: np.ndarray) -> None:
         self.integrator, self.instants, self.times, self.step = integrator, instants, times, 0.0
+        self._functions = instants.functions if instants else None
         self._made: tuple[Way, Run] | None = None
         self._worked = np.zeros(2)  # supplied and dissipated energy of the run of the core up to the last row, in J
         self._since = np.zeros(2)  # and from there to the last point
@@ -108,6 +109,8 @@ class Hybrid:
         if not goes_on and not self._begin(at, way, weak):
             return Passed(None, at, [], None, False, weak, np.zeros(2), Refusal(Kind.UNSOLVABLE, at.time))
         run, self._at = self._run(at, way), None
+        if self._functions and self.integrator.loops:
+            self._functions.save()  # for `_before_unfit`
         found = self._slice(run, end, way)
         back = found.back
         if self.instants:
@@ -226,6 +229,8 @@ class Hybrid:
     def _before_unfit(self, at: Point, reached: Point, goes_on: bool, weak: int) -> Passed:
         """Go back to the begin of a slice at whose end the states chosen for loops are unfit, to choose others."""
         self._at, refusal = None, None
+        if self._functions:
+            self._functions.restore()
         if not goes_on:
             least = RESCUE.shortest * float(np.max(np.diff(self.times)))
             if self.integrator.settings.constraints != "auto" and reached.time - at.time > least:
@@ -255,6 +260,7 @@ class Hybrid:
                 energy=own.energy,
                 moves=way.moves,
                 vibration=own.spectrum.vibration if METHODS[way.method].damps else 0.0,
+                functions=self._functions,
                 room=min(SAMPLING.rows, 4 + SAMPLING.numbers // numbers),
             )
             self._made = way, run

@@ -15,6 +15,7 @@ from acausal.solve.events.redundant_laws import RedundantLaws
 from acausal.solve.initialization.assembly import refuse_open_loops
 from acausal.solve.initialization.newton import algebraic
 from acausal.solve.integrate.core_run import make_run
+from acausal.solve.integrate.functions import Functions
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.point import Point, Rows
 from acausal.solve.problem import Problem
@@ -43,13 +44,21 @@ class Instants:
         Typical sizes of states and algebraic unknowns.
     energy : bool, optional
         Whether the run integrates powers.
+    functions : Functions, optional
+        Functions that are called at events; without them they keep their results.
     """
 
     def __init__(
-        self, problem: Problem, tolerance: float, span: float, nominal: np.ndarray, energy: bool = False
+        self,
+        problem: Problem,
+        tolerance: float,
+        span: float,
+        nominal: np.ndarray,
+        energy: bool = False,
+        functions: Functions | None = None,
     ) -> None:
         self.problem, self.tolerance, self.span, self.nominal, self.energy = problem, tolerance, span, nominal, energy
-        self.guards = problem.compiled.guards
+        self.guards, self.functions = problem.compiled.guards, functions
         self.watched = np.array(self.guards.watched, dtype=int)
         self.is_switch = self.watched < self.guards.n_switches
         self.redundant = RedundantLaws(problem.compiled)
@@ -116,7 +125,10 @@ class Instants:
         moves = at.constants.moves is not False
         if moves not in self._runs:
             self._runs[moves] = make_run(
-                *(self.problem, at, self.nominal, self.span, self.tolerance), energy=self.energy, moves=moves
+                *(self.problem, at, self.nominal, self.span, self.tolerance),
+                energy=self.energy,
+                moves=moves,
+                functions=self.functions,
             )
         return self._runs[moves]
 
@@ -155,6 +167,8 @@ class Instants:
                 refuse_open_loops(self.problem, at, np.unique(jumps), ", ".join(origins))
             case Doubt.CONTRADICTION:
                 raise Failure(at.time, self._contradiction(acts))
+            case Doubt.FUNCTION if self.functions:
+                self.functions.refuse()
         if text := undetermined(self.problem, algebraic(self.problem, at)):
             raise Failure(at.time, text)
         raise InitializationError("Newton's method does not converge")

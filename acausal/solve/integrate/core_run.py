@@ -12,6 +12,7 @@ from acausal.core.model_file import floats, framed, ints
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
 from acausal.solve.initialization.independent_constraints import closure_of
+from acausal.solve.integrate.functions import Functions
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.point import Point
 from acausal.solve.problem import Problem
@@ -40,7 +41,7 @@ def _sections(compiled: CompiledModel, energies: bool, moves: bool) -> dict[str,
         **runtime.square("begin", NOTHING, 3, []),
         **dict.fromkeys(("head", "shown", "timed", "limits"), nothing),
         "instants": runtime.tape(instants if instants.numel() else NOTHING),
-        "rules": runtime.rules(guards.timed),
+        **runtime.rules(guards.timed),
         "bounds": b"",
         "limited": b"",
     }
@@ -57,6 +58,7 @@ def make_run(
     moves: bool = True,
     vibration: float = 0.0,
     room: int = 1,
+    functions: Functions | None = None,
 ) -> Run:
     """Make a run of the core.
 
@@ -80,6 +82,8 @@ def make_run(
         Angular frequency in rad/s from which on vibrations are damped; 0 for none.
     room : int, optional
         Rows of a slice at most.
+    functions : Functions, optional
+        Functions that are called at events; without them they keep their results.
     """
     compiled = problem.compiled
     runtime = _runtime(compiled, energy, moves)
@@ -102,4 +106,7 @@ def make_run(
     }
     guards = compiled.guards
     numbers = compiled.nx, compiled.nz, len(at.constants.vector), len(guards.watched), len(guards.timed)
-    return Run(framed(VERSION, sections), numbers, room)
+    run = Run(framed(VERSION, sections), numbers, room)
+    if functions:
+        run.calls(functions, functions.arguments, functions.results)
+    return run

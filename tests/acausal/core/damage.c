@@ -10,7 +10,7 @@
 
 #define STEPS 20
 #define OUTPUTS 3
-#define UNIT 8 /* version of the files of units */
+#define UNIT 9 /* version of the files of units */
 
 static uint32_t version; /* of the file */
 

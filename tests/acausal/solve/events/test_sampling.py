@@ -388,7 +388,9 @@ class Counted(SliderCrank):
 
     def equations(self):
         yield from super().equations()
-        yield when(time >= self.due, reinit(self.count, self.count + 1), reinit(self.due, self.due + 0.01), at_start=True)
+        yield when(
+            time >= self.due, reinit(self.count, self.count + 1), reinit(self.due, self.due + 0.01), at_start=True
+        )
 
 
 @pytest.mark.filterwarnings("ignore:rod_bar")

@@ -50,7 +50,7 @@ def cases(draw):
 
 
 @pytest.mark.filterwarnings("ignore:the body has a")
-@effort(20)
+@effort(8)
 @given(cases())
 def test_any_body(case):
     points, cells, material, frames, hold, basis, modes = case
