@@ -9,9 +9,11 @@ from typing import Any
 import casadi as ca
 
 from acausal.core import why_not
+from acausal.flatten.component_tree import walk
 from acausal.flatten.flat_model import FlatClosure, FlatUnknowns
+from acausal.language import fields as f
 from acausal.reduce import ReducedModel
-from acausal.symbols import scalars
+from acausal.symbols import dense, scalars, vec
 
 SHOWN = 12
 
@@ -66,6 +68,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
         "jacobian_nonzeros": int(local.nnz_out(1)),
         "operations": int(local.n_instructions()),
         "structural_zeros": list(flat.parameters.structural_zeros),
+        "algebraic_loops": algebraic_loops(reduced),
         "loops": loops_at(reduced, found),
         "redundant_constraints": [str(o) for o in flat.equations.redundant if o.kind.startswith("connection of")],
         "redundant_in_parts": parts_at(reduced, found),
@@ -91,6 +94,7 @@ def summary(r: Mapping[str, Any]) -> str:
         f"  algebraic     {_list(r['algebraic'])}",
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
+    lines += [f"  signal loop   {_list(names)}: solved together" for names in r["algebraic_loops"]]
     lines += [f"  {loop['kind']:14}{_loop_text(loop)}" for loop in r["loops"]]
     if r["redundant_in_parts"]:
         lines.append(f"  redundant     {_redundant(r['redundant_in_parts'])}")
@@ -104,6 +108,25 @@ def summary(r: Mapping[str, Any]) -> str:
     seconds = r["seconds"]
     lines.append("  seconds       " + ", ".join(f"{k} {v:.3f}" for k, v in seconds.items()))
     return "\n".join(lines)
+
+
+def algebraic_loops(reduced: ReducedModel) -> list[list[str]]:
+    """Return the inputs and outputs of blocks that are solved for together, loop by loop."""
+    parts = [part for part in walk(reduced.flat.tree) if part is not reduced.flat.tree]
+    fields = [(part, name, field) for part in parts for name, field in part.fields.items()]
+    signals = {
+        s.element_hash()
+        for part, name, field in fields
+        if isinstance(field, f.Variable) and field.causality in ("input", "output")
+        for s in scalars(dense(vec(getattr(part, name).sx)))
+    }
+    unknowns = scalars(reduced.unknowns)
+    blocks = [block.variables for block in reduced.plan.blocks if len(block.variables) > 1]
+    return [
+        [reduced.names[k] for k in block]
+        for block in blocks
+        if all(unknowns[k].element_hash() in signals for k in block)
+    ]
 
 
 def loops_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:

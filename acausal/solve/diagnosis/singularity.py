@@ -15,6 +15,7 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
 from acausal.compiler.memo import memoized
+from acausal.compiler.report import algebraic_loops
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.pivot_scaling import scaled_to_pivots
 from acausal.solve.diagnosis.probe import ROUNDING, Probe, decisive_zeros, is_round_off, perturbed, zeros_text
@@ -32,6 +33,7 @@ NO_INERTIA = (
 PARALLEL = (
     "The load that parallel rigid parts share is statically indeterminate: remove one of them, or make one elastic."
 )
+UNIT_GAIN = "A loop of signals with the gain 1 has no solution, or many: change a gain, or delay a signal of the loop."
 
 
 def dependent_equations(problem: Problem, at: Point, flag: float = 0.0) -> str:
@@ -65,7 +67,8 @@ def dependent_equations(problem: Problem, at: Point, flag: float = 0.0) -> str:
     inertia = NO_INERTIA if any(rates) else ""
     if len(inside) > 1 and _dependent_around(probe):
         statics = PARALLEL if len({row.origin.path for row in inside}) > 1 else ANOTHER
-        remedy = ANOTHER + inertia if all(rates) else statics
+        signals = {f"`{name}`" for loop in algebraic_loops(problem.compiled.reduced) for name in loop}
+        remedy = UNIT_GAIN if signals >= set(open_) else ANOTHER + inertia if all(rates) else statics
         return f"these equations are dependent and leave {what} undetermined:\n{lines}\n{remedy}"
     if len(inside) > 1:
         return (
