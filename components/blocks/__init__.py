@@ -5,6 +5,7 @@ from components.blocks.add import Add
 from components.blocks.add3 import Add3
 from components.blocks.boolean_pulse import BooleanPulse
 from components.blocks.boolean_step import BooleanStep
+from components.blocks.casadi_function import CasadiFunction
 from components.blocks.combi_table1_d import CombiTable1D
 from components.blocks.combi_table2_d import CombiTable2D
 from components.blocks.combi_time_table import CombiTimeTable
@@ -16,8 +17,10 @@ from components.blocks.dead_zone import DeadZone
 from components.blocks.der import Der
 from components.blocks.derivative import Derivative
 from components.blocks.discrete_pid import DiscretePID
+from components.blocks.discrete_state_space import DiscreteStateSpace
 from components.blocks.discrete_transfer_function import DiscreteTransferFunction
 from components.blocks.division import Division
+from components.blocks.edge import Edge
 from components.blocks.exp import Exp
 from components.blocks.exp_sine import ExpSine
 from components.blocks.feedback import Feedback
@@ -89,6 +92,7 @@ __all__ = [
     "And",
     "BooleanPulse",
     "BooleanStep",
+    "CasadiFunction",
     "CombiTable1D",
     "CombiTable2D",
     "CombiTimeTable",
@@ -100,8 +104,10 @@ __all__ = [
     "Der",
     "Derivative",
     "DiscretePID",
+    "DiscreteStateSpace",
     "DiscreteTransferFunction",
     "Division",
+    "Edge",
     "Exp",
     "ExpSine",
     "Feedback",

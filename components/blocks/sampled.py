@@ -6,15 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, Scalar, call, discrete, floor, input, output, parameter, reinit, structural, time, when
+from acausal import Component, Scalar, call, discrete, input, output, parameter, reinit, structural, time, when
+from components.blocks.periodic_block import first
 
 
 class Sampled(Component):
     """Python function y = f(time, u) that acts at equidistant instants, with its results held in between.
 
     At an instant the function reads the values just before it. Where its inputs follow from outputs of other functions that
-    act then, these act first; in a cycle, the one that is declared first does. The instants are offset + k period, from the
-    start of the run on.
+    act then, these act first; in a cycle, the one that is declared first does. The instants are offset + k period, with
+    k = 0, 1, ..., from the start of the run on.
 
     One input or output is a number, several are an array. What f keeps lives in its object: each run takes a copy and calls
     its method `reset()`, if it has one.
@@ -22,7 +23,7 @@ class Sampled(Component):
 
     f: Any = structural("function of the time in s and the inputs", choices=[callable])
     period: Scalar = parameter("sample period", unit="s", default=0.1, positive=True)
-    offset: Scalar = parameter("an instant", unit="s", default=0)
+    offset: Scalar = parameter("first instant", unit="s", default=0)
     inputs: int = structural("number of inputs", default=1, cls=int, minimum=0)
     outputs: int = structural("number of outputs", default=1, cls=int, minimum=1)
     delay: int = structural("periods by which outputs are late", default=0, choices=[0, 1])
@@ -33,7 +34,7 @@ class Sampled(Component):
     y: Any = output("outputs", shape=lambda s: shape_of(s.outputs))
     held: Any = discrete("outputs", shape=lambda s: shape_of(s.outputs), start=y_start)
     result: Any = discrete("last results", shape=lambda s: shape_of(s.outputs), start=y_start)
-    next: Scalar = discrete("next instant", unit="s", start=offset - period * floor((offset - time) / period))
+    next: Scalar = discrete("next instant", unit="s", start=first(offset, period))
 
     def equations(self):
         act = call(self.f, [self.u], [self.result], [self.held if self.delay else self.result])

@@ -23,14 +23,7 @@ class StateSpace(Component):
     x: Any = variable("state", shape=lambda s: (len(s.A),))
 
     def check(self):
-        n, k, m = len(self.A), np.shape(self.B)[1], len(self.C)
-        wanted = {"A": (n, n), "B": (n, k), "C": (m, n), "D": (m, k)}
-        for name, shape in wanted.items():
-            value = getattr(self, name)
-            if value is not None and np.shape(value) != shape:
-                raise DeclarationError(
-                    f"matrix {name} of a state space has shape {np.shape(value)}; it must have {shape}."
-                )
+        check_matrices(self)
 
     def equations(self):
         A, B, C = (np.asarray(part, dtype=float) for part in (self.A, self.B, self.C))
@@ -42,6 +35,16 @@ class StateSpace(Component):
     def initial_equations(self):
         if len(self.A):
             yield self.x == self.x_start
+
+
+def check_matrices(block: Any) -> None:
+    """Raise DeclarationError if the matrices of a state space do not fit together."""
+    n, k, m = len(block.A), np.shape(block.B)[1], len(block.C)
+    wanted = {"A": (n, n), "B": (n, k), "C": (m, n), "D": (m, k)}
+    for name, shape in wanted.items():
+        value = getattr(block, name)
+        if value is not None and np.shape(value) != shape:
+            raise DeclarationError(f"matrix {name} of a state space has shape {np.shape(value)}; it must have {shape}.")
 
 
 def matrix_of(system: Any, name: str, shape: tuple[int, int] | None) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from functools import cache
 
+import casadi as ca
 import pytest
 
 import acausal as ac
@@ -19,11 +20,17 @@ from tests.shared import worst_equation
 PARTS = {n: c for n, c in SIGNALS.items() if not (issubclass(c, Connector) or inspect.getdoc(c).startswith("Base"))}
 BLOCKS = [name for name in PARTS if name.startswith("blocks.")]
 CIRCUITS = [name for name in PARTS if name.startswith("electrical.") and name != "electrical.Ground"]
+NUMBER = ca.SX.sym("number")
 DATA = {
     "CombiTable2D": Table(([0, 1, 3], [0, 2, 3]), [[0, 1, 2], [1, 3, 2], [2, 1, 0]]),
     **dict.fromkeys(
         ("CombiTable1D", "CombiTimeTable", "TableCurrent", "TableVoltage"), Table([0, 0.3, 1, 3], [0, 2, 1, 2])
     ),
+}
+NEEDED = {
+    "Sampled": {"f": lambda time, u: 2 * u},
+    "CasadiFunction": {"f": ca.Function("sine", [NUMBER], [ca.sin(NUMBER)])},
+    "DiscreteStateSpace": {"A": [[0.5]], "B": [[1]], "C": [[2]]},
 }
 WAVE, OTHER, LIGHT = 1.5 + sin(7 * now), 1.2 + sin(11 * now + 1) / 2, pulse(width=0.5, period=0.3, start_time=0.05)
 LOGIC = {"And", "Or", "Xor", "Not", "Timer", "RSFlipFlop"}
@@ -37,10 +44,9 @@ def signals(name):
     given = dict(zip(inputs, (WAVE, OTHER, -WAVE), strict=False))
     logical = LOGICAL | ({"u2"} if cls.__name__ == "Switch" else set(inputs) if cls.__name__ in LOGIC else set())
     given |= {n: LIGHT for n in logical if n in given}
-    given |= {"u": (WAVE,)} if cls.__name__ == "StateSpace" else {}
+    given |= {"u": (WAVE,)} if cls.__name__ in ("StateSpace", "DiscreteStateSpace", "CasadiFunction") else {}
     given |= {"limit2": -OTHER} if "limit2" in given else {}
-    needed = {"f": lambda time, u: 2 * u} if cls.__name__ == "Sampled" else {}
-    return cls, given, {"data": DATA[cls.__name__]} if cls.__name__ in DATA else needed
+    return cls, given, {"data": DATA[cls.__name__]} if cls.__name__ in DATA else NEEDED.get(cls.__name__, {})
 
 
 def with_block(name):
