@@ -62,6 +62,9 @@ SOLVE = (
 # Files that may import a package which is installed with an extra, and only there.
 EXTRAS = {
     "components/gradient.py": {"casadi"},
+    "components/blocks/casadi_function.py": {"casadi"},
+    "components/fmu/interface.py": {"fmpy"},
+    "components/fmu/slave.py": {"fmpy"},
     "components/fe/elements/quadratic.py": {"skfem"},
     "components/fe/formats/ansys_process.py": {"ansys"},
     "components/fe/body/recovery.py": {"meshio"},
@@ -70,6 +73,7 @@ EXTRAS = {
 # Files of components that read and write files, or are a command, as the engine does.
 FILES = {"acausal.result", "acausal.result.files"}
 INSIDE = {
+    "components/fmu/interface.py": {"acausal.units"},
     "components/fe/reduction/archive.py": FILES,
     "components/fe/formats/third_party.py": FILES,
     "components/fe/formats/readers.py": FILES,

@@ -230,7 +230,7 @@ class Hybrid:
         """Go back to the begin of a slice at whose end the states chosen for loops are unfit, to choose others."""
         self._at, refusal = None, None
         if self._functions:
-            self._functions.restore()
+            self._functions.restore(at.time)
         if not goes_on:
             least = RESCUE.shortest * float(np.max(np.diff(self.times)))
             if self.integrator.settings.constraints != "auto" and reached.time - at.time > least:

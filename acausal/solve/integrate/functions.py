@@ -87,10 +87,25 @@ class Functions:
 
     def save(self) -> None:
         """Save what `restore` goes back to."""
-        self._saved = deepcopy((self._functions, self._at, self.results))
+        try:
+            self._saved = deepcopy((self._functions, self._at, self.results))
+        except Exception:  # what refuses a copy in a run, as an FMU does, was copied before it
+            self._saved = None
 
-    def restore(self) -> None:
-        """Go back to what was saved."""
+    def restore(self, time: float) -> None:
+        """Go back to what was saved, at a time.
+
+        Raises
+        ------
+        Failure
+            If a function has no copy in a run.
+        """
+        if self._saved is None:
+            raise Failure(
+                time,
+                "the run goes back to there, to choose other states for its loops, and a function that it calls has no copy. "
+                'Take constraints="projection", which chooses none.',
+            )
         self._functions, self._at, self.results[:] = deepcopy(self._saved)
 
     def refuse(self) -> NoReturn:

@@ -1,0 +1,5 @@
+"""FMUs of other tools as parts."""
+
+from components.fmu.fmu import FMU
+
+__all__ = ["FMU"]
