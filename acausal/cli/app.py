@@ -75,6 +75,9 @@ def simulate(
     scene: Scene,
     settings: Set = None,
     inputs: Inputs = None,
+    extrapolation: Annotated[
+        str, typer.Option(metavar="refuse|hold", help="What inputs are where their data end: refused, or held.")
+    ] = "refuse",
     effects: Applied = None,
     stop_time: StopTime = None,
     tolerance: Annotated[
@@ -157,7 +160,8 @@ def simulate(
         with user_errors(cls):
             how["stop_time"] = stop_time_of(model, given, stop_time)
             task, _ = checked_task(model, given, how, **limits)
-            given = with_inputs(model, given, read_inputs(inputs or ()), ends=(task.start_time, task.stop_time))
+            data, ends = read_inputs(inputs or ()), (task.start_time, task.stop_time)
+            given = with_inputs(model, given, data, extrapolation, ends=ends)
             compiled = ac.compile(model, parameters=given)
         # Refuse wrong names before the run.
         chosen = match(compiled.tree, variables or ())

@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 from acausal.cli.app import app
-from acausal.cli.common import Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
-from acausal.cli.option_values import read_settings
+from acausal.cli.common import Inputs, Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
+from acausal.cli.option_values import read_inputs, read_settings
 from acausal.cli.output import check_outputs, runs_bar, write_json
 from acausal.cli.scenes import file_of, find_scene, instance
 from acausal.policy import POLICY
@@ -18,6 +18,7 @@ from acausal.policy import POLICY
 def effects(
     scene: Scene,
     settings: Set = None,
+    inputs: Inputs = None,
     accuracy: Annotated[
         float, typer.Option(help="Largest change of the outputs, as a fraction of their ranges.", metavar="R")
     ] = 1e-2,
@@ -65,6 +66,7 @@ def effects(
                 tolerance=tolerance,
                 outputs=outputs,
                 parameters=values,
+                inputs=read_inputs(inputs or ()),
                 limit=limit,
                 pairs=pairs,
                 workers=workers,

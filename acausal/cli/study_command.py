@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from acausal.cli.app import app
-from acausal.cli.common import Initial, Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
-from acausal.cli.option_values import read_settings, read_switches
+from acausal.cli.common import Initial, Inputs, Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
+from acausal.cli.option_values import read_inputs, read_settings, read_switches
 from acausal.cli.output import check_outputs, runs_bar, write_json
 from acausal.cli.scenes import file_of, find_scene, instance
 from acausal.cli.streams import tell
@@ -23,6 +23,7 @@ from acausal.result import shown_name
 def study(
     scene: Scene,
     settings: Set = None,
+    inputs: Inputs = None,
     formulations: Annotated[
         list[str] | None,
         typer.Option("--formulation", metavar="NAME", help="Only these formulations; all of the scene's if not given."),
@@ -91,6 +92,7 @@ def study(
         cls, values = find_scene(scene), read_settings(settings or ())
         options = {
             "parameters": values,
+            "inputs": read_inputs(inputs or ()),
             "tolerances": _list(tolerances, float, "tolerances", "numbers, such as 1e-3,1e-6"),
             "max_orders": _list(max_orders, _order, "max-orders", "whole numbers from 1 to 5, or auto, such as 2,5"),
             "methods": _list(methods, _word, "methods", "names, such as idas,rosenbrock") if methods else (None,),
