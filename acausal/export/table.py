@@ -150,8 +150,10 @@ class Table:
                 reinit=k in jumping,
             )
             rate = f"{unit}/s" if unit else ""
+            # Where the derivative is a state as well, its own name is that of the state.
+            named_rate = f"der({own})" if f"der({own})" not in r.states else f"der({own},1)"
             yield Variable(
-                *(f"der({own})", self.rates[k], "local", "continuous", "calculated", rate, None),
+                *(named_rate, self.rates[k], "local", "continuous", "calculated", rate, None),
                 derivative_of=self.states[k],
             )
 
