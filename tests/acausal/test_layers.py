@@ -64,6 +64,8 @@ EXTRAS = {
     "components/gradient.py": {"casadi"},
     "components/blocks/casadi_function.py": {"casadi"},
     "components/fmu/interface.py": {"fmpy"},
+    "models/signals/crane.py": {"numpy", "scipy"},
+    "models/signals/quarter_car.py": {"numpy"},
     "components/fmu/slave.py": {"fmpy"},
     "components/fe/elements/quadratic.py": {"skfem"},
     "components/fe/formats/ansys_process.py": {"ansys"},
