@@ -141,14 +141,16 @@ static int32_t search_mode(ac_instance *i, const round_of *r) {
 static int32_t look_at_conditions(ac_instance *i, round_of *r, int first) {
     const ac_unit *u = i->of;
     const double *rate = i->guards + 2 * u->watched;
-    int32_t failed = ac_indicator_rates(i);
+    int32_t failed = ac_indicator_rates(i), fires = 0;
     if (failed) return failed;
     for (int32_t k = 0; k < u->watched; k++) {
         if (first) i->errors[k] = i->guards[k], i->errors[u->watched + k] = !(i->truth[k] > 0);
         i->other[k] = holds(i, k, rate[k]);
         r->flips |= u->guard[k].on >= 0 && i->other[k] != i->truth[k];
+        fires |= u->guard[k].on < 0 && i->other[k] > i->truth[k];
     }
-    if (r->flips) failed = search_mode(i, r);
+    /* What fires in this round makes the next one differ, even if the switches have been there before: a pulse has two edges. */
+    if (r->flips && !fires) failed = search_mode(i, r);
     ac_save(i, i->round);
     for (int32_t k = 0; k < u->watched && !failed; k++) {
         i->acts[k] += u->guard[k].on >= 0 && i->other[k] != i->truth[k];
