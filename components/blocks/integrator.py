@@ -20,10 +20,14 @@ class Integrator(SISO):
     x: Scalar = variable("integral")
 
     def equations(self):
-        yield der(self.x) == self.k * self.u
+        yield der(self.x) == self.rate()
         yield self.y == self.x
         if self.use_reset:
             yield when(self.reset > 0.5, reinit(self.x, self.set if self.use_set else self.y_start))
+
+    def rate(self):
+        """Derivative of the output."""
+        return self.k * self.u
 
     def initial_equations(self):
         yield self.x == self.y_start

@@ -4,7 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal import Model, chain, connect, der, fixed
+from acausal import (
+    Component,
+    Model,
+    Scalar,
+    chain,
+    connect,
+    der,
+    discrete,
+    fixed,
+    input,
+    reinit,
+    sqrt,
+    time,
+    variable,
+    when,
+)
 from components import blocks, rotational
 from tests.reference.msl.published import compare
 
@@ -176,3 +191,118 @@ def test_drive_with_controller():
     # At rest the controller holds the load: -10 = -k x; the spring carries it.
     model = Drive(PI=blocks.LimPID(k=100, Ti=0.1, y_max=12, Ni=0.1, controller_type="PI", xi_start=-0.1))
     compare("Modelica.Blocks.Examples.PID_Controller", model, {"PI.I.y": "PI.xi"})
+
+
+class Loops(Model):
+    """Controllers with limits and lags, from their steady states on."""
+
+    STEPS = ((0.4, 0.5, 0.5), (-1.5, 2, 0.9), (1.5, -1, 0.1), (0.4, 0.5, 0.5))
+    step1, step2, step3, step4 = (blocks.Step(height=h, offset=o, start_time=1) for h, o, _ in STEPS)
+    PID1, PID2, PID3, PID4 = (
+        blocks.LimPID(controller_type="PI", Ti=1, y_max=1, y_min=0, xi_start=x) for *_, x in STEPS
+    )
+    firstOrder1, firstOrder4 = blocks.FirstOrder(T=1, y_start=0.5), blocks.FirstOrder(T=1, y_start=0.5)
+    firstOrder2, firstOrder3 = blocks.FirstOrder(T=1, y_start=1), blocks.FirstOrder(T=1, y_start=0)
+
+    def connections(self):
+        for k in "1234":
+            step, controller, lag = (getattr(self, name + k) for name in ("step", "PID", "firstOrder"))
+            yield connect(step.y, controller.u_s)
+            yield connect(controller.y, lag.u)
+            yield connect(lag.y, controller.u_m)
+
+
+def test_limited_controllers():
+    compare("ModelicaTest.Blocks.LimPID", Loops(), {f"PID{k}.I.y": f"PID{k}.xi" for k in "1234"})
+
+
+class Strict(Model):
+    sine3 = blocks.Sine(amplitude=1.5, f=2)
+    slewRateLimiter1, limIntegrator1 = blocks.SlewRateLimiter(rising=13), blocks.LimIntegrator(k=5, out_max=0.9)
+
+    def connections(self):
+        yield connect(self.sine3.y, self.slewRateLimiter1.u)
+        yield connect(self.sine3.y, self.limIntegrator1.u)
+
+
+def test_strict_limiters():
+    compare("ModelicaTest.Blocks.StrictLimiters", Strict())
+
+
+class SelfResetting(Model):
+    integrator = blocks.Integrator(use_reset=True, u=1)
+    threshold = blocks.GreaterEqualThreshold(threshold=1)
+
+    def connections(self):
+        yield connect(self.integrator.y, self.threshold.u)
+        yield connect(self.threshold.y, self.integrator.reset)
+
+
+def test_an_integrator_that_resets_itself():
+    compare("ModelicaTest.Blocks.SelfResettingIntegrator", SelfResetting())
+
+
+class Reset(Model):
+    """A limited integrator that is reset at both edges of a pulse."""
+
+    integrator = blocks.LimIntegrator(k=2, out_max=0.75, use_reset=True)
+    pulse = blocks.BooleanPulse(period=1)
+    rises, falls, either = blocks.Edge(), blocks.Edge(), blocks.Or()
+    inverse = blocks.Not()
+
+    def connections(self):
+        yield connect(self.pulse.y, self.rises.u)
+        yield connect(self.pulse.y, self.inverse.u)
+        yield connect(self.inverse.y, self.falls.u)
+        yield connect(self.rises.y, self.either.u1)
+        yield connect(self.falls.y, self.either.u2)
+        yield connect(self.either.y, self.integrator.reset)
+
+    def equations(self):
+        yield self.integrator.u == 2 * self.pulse.y - 1
+
+
+def test_a_limited_integrator_with_reset():
+    compare("ModelicaTest.Blocks.LimResetIntegrator", Reset())
+
+
+class Mean(Component):
+    """Mean value of the last period, as of Modelica.Blocks.Math."""
+
+    u: Scalar = input("signal")
+    x: Scalar = variable("integral", start=0, fixed=True)
+    y: Scalar = discrete("mean")
+    due: Scalar = discrete("end of the period", unit="s", start=0.5)
+
+    def equations(self):
+        yield der(self.x) == self.u
+        mean = reinit(self.y, 2 * self.x)
+        yield when(time >= self.due, mean, reinit(self.x, 0), reinit(self.due, self.due + 0.5))
+
+
+class Means(Model):
+    cosine = blocks.Cosine(offset=0.5, f=2, phase=np.pi / 4)
+    mean = Mean()
+
+    def equations(self):
+        yield self.mean.u == self.cosine.y
+
+
+def test_mean():
+    compare("ModelicaTest.Blocks.Mean", Means())
+
+
+class RootMeanSquare(Model):
+    expSine = blocks.ExpSine(f=2, damping=0.5, offset=-0.5)
+    mean1, square = Mean(), Mean()
+    rms: Scalar = variable("root of the mean square")
+
+    def equations(self):
+        yield self.mean1.u == self.expSine.y
+        yield self.square.u == self.expSine.y**2
+        yield self.rms == sqrt(self.square.y)
+
+
+def test_root_mean_square():
+    names = {f"rootMeanSquare.mean.{own}": f"square.{own}" for own in "xy"}
+    compare("ModelicaTest.Blocks.RootMeanSquare", RootMeanSquare(), names)
