@@ -41,10 +41,10 @@ def test_quarter_car():
     whole = np.zeros((6, 6))  # states, road, and its change from row to row
     whole[:4, :4], whole[3, 4], whole[4, 5] = h * A, h * tyre / m, 1
     F = expm(whole)[:4]
-    found = [np.zeros(4)]
-    for u, change in zip(road[:-1], np.diff(road), strict=True):
-        found.append(F @ [*found[-1], u, change])
-    exact = np.array(found)[::11]
+    found = np.zeros((len(road), 4))
+    for k, step in enumerate(np.diff(road)):
+        found[k + 1] = F @ [*found[k], road[k], step]
+    exact = found[::11]
     close(result, "lift", exact[:, 0], 1e-6)
     close(result, "load", tyre * (road[::11] - exact[:, 2]), 1e-6)
 
@@ -158,26 +158,26 @@ def drive_rates(t, y, brake):
     return [(supply - 0.05 * i - c * w) / 6.5e-3, (c * i - 30 * (w / 150) ** 2 - brake) / 0.15]
 
 
-def upper(t, y, brake):
-    return overlap(phases(t), y[0])
+def change(sign, both):
+    """Event where the second diode of the upper or lower three closes, or where one of both opens."""
 
+    def event(t, y, brake):
+        return overlap(sign * phases(t), y[0])
 
-def lower(t, y, brake):
-    return overlap(-phases(t), y[0])
-
-
-upper.terminal = lower.terminal = True
+    event.terminal, event.direction = True, -1 if both else 1
+    return event
 
 
 def test_rectifier_drive():
     """From one crossing of two phases to the next, with an event where each diode opens or closes."""
-    y, t, parts = np.array([50.0, 145.0]), 0.0, []
+    y, t, parts, both = np.array([50.0, 145.0]), 0.0, [], {1: False, -1: False}
     for end in sorted({*(1 / 600 + np.arange(75) / 300), 0.2, 0.25}):
         while t < end:
-            options = {"method": "DOP853", "events": (upper, lower), **EXACT}
+            options = {"method": "DOP853", "events": [change(sign, both[sign]) for sign in both], **EXACT}
             part = solve_ivp(drive_rates, (t, end), y, args=(20 if t >= 0.2 else 0,), **options)
             parts.append(part)
             y, t = part.y[:, -1], part.t[-1]
+            both = {sign: both[sign] != (len(at) > 0) for sign, at in zip(both, part.t_events, strict=True)}
     assert sum(part.status for part in parts) == 150
     result = ac.simulate(RectifierDrive(), stop_time=0.25, tolerance=1e-8)
     i, w = sample(parts, result.time)
