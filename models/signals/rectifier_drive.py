@@ -10,7 +10,7 @@ from components import rotational
 
 
 class RectifierDrive(Model):
-    """Three phases of 50 Hz, six diodes, a choke, and a running machine whose load increases."""
+    """Three phases of 50 Hz, six diodes, a choke that keeps the current flowing, and a machine whose load increases."""
 
     stop_time = 0.5
     a = el.SineVoltage(V=60, f=50)
