@@ -4,22 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal import (
-    Component,
-    Model,
-    Scalar,
-    chain,
-    connect,
-    der,
-    discrete,
-    fixed,
-    input,
-    reinit,
-    sqrt,
-    time,
-    variable,
-    when,
-)
+from acausal import Model, chain, connect, der, fixed
 from components import blocks, rotational
 from tests.reference.msl.published import compare
 
@@ -264,45 +249,3 @@ class Reset(Model):
 
 def test_a_limited_integrator_with_reset():
     compare("ModelicaTest.Blocks.LimResetIntegrator", Reset())
-
-
-class Mean(Component):
-    """Mean value of the last period, as of Modelica.Blocks.Math."""
-
-    u: Scalar = input("signal")
-    x: Scalar = variable("integral", start=0, fixed=True)
-    y: Scalar = discrete("mean")
-    due: Scalar = discrete("end of the period", unit="s", start=0.5)
-
-    def equations(self):
-        yield der(self.x) == self.u
-        mean = reinit(self.y, 2 * self.x)
-        yield when(time >= self.due, mean, reinit(self.x, 0), reinit(self.due, self.due + 0.5))
-
-
-class Means(Model):
-    cosine = blocks.Cosine(offset=0.5, f=2, phase=np.pi / 4)
-    mean = Mean()
-
-    def equations(self):
-        yield self.mean.u == self.cosine.y
-
-
-def test_mean():
-    compare("ModelicaTest.Blocks.Mean", Means())
-
-
-class RootMeanSquare(Model):
-    expSine = blocks.ExpSine(f=2, damping=0.5, offset=-0.5)
-    mean1, square = Mean(), Mean()
-    rms: Scalar = variable("root of the mean square")
-
-    def equations(self):
-        yield self.mean1.u == self.expSine.y
-        yield self.square.u == self.expSine.y**2
-        yield self.rms == sqrt(self.square.y)
-
-
-def test_root_mean_square():
-    names = {f"rootMeanSquare.mean.{own}": f"square.{own}" for own in "xy"}
-    compare("ModelicaTest.Blocks.RootMeanSquare", RootMeanSquare(), names)

@@ -36,11 +36,17 @@ class OpAmp(Component):
     in_p: el.Pin = port(el.Pin, "positive input")
     in_n: el.Pin = port(el.Pin, "negative input")
     out: el.Pin = port(el.Pin, "output")
+    v_in: Scalar = variable("voltage in_p.v - in_n.v", unit="V")
 
     def equations(self):
         yield self.in_p.i == 0
         yield self.in_n.i == 0
-        yield self.out.v == clip(15000 * (self.in_p.v - self.in_n.v), -15, 15)
+        yield self.v_in == self.in_p.v - self.in_n.v
+        yield self.out.v == self.limited()
+
+    def limited(self):
+        """Potential of the output."""
+        return clip(15000 * self.v_in, -15, 15)
 
 
 class Amplifier(Model):
