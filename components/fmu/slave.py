@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from contextlib import suppress
@@ -68,11 +69,10 @@ class Slave:
         self._time += step
 
     def _begin(self, time: float, u: Any, p: Any) -> None:
-        from fmpy import read_model_description
         from fmpy.simulation import instantiate_fmu
 
-        folder, own = _unpacked(self.interface.path), self.interface
-        description = read_model_description(own.path, validate=False)
+        own = self.interface
+        folder, description = _unpacked(own.path, os.stat(own.path).st_mtime_ns)
         self._fmu, self._time = instantiate_fmu(folder, description, "CoSimulation"), time
         self._set(own.parameters, p)
         start = {"startTime": time}
@@ -99,13 +99,13 @@ class Slave:
 
 
 @cache
-def _unpacked(path: str) -> str:
-    """Return the folder of an FMU, which is removed at the end of the process."""
+def _unpacked(path: str, changed: int) -> tuple[str, Any]:
+    """Return the folder of an FMU, removed at the end of the process, and its description; anew where the file has changed."""
     import atexit
 
-    from fmpy import extract
+    from fmpy import extract, read_model_description
 
     folder = tempfile.mkdtemp()
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     extract(path, unzipdir=folder)
-    return folder
+    return folder, read_model_description(folder, validate=False)
