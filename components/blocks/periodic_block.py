@@ -13,6 +13,11 @@ def first(begin: Any, period: Any) -> Any:
     return begin + period * maximum(0, -floor((begin - time) / period))
 
 
+def at_instants(instant: Any, period: Any, *actions: Any) -> Any:
+    """Return the statement of what happens at an instant, a discrete variable, and a period after it, and so on."""
+    return when(time >= instant, *actions, reinit(instant, instant + period), at_start=True)
+
+
 class PeriodicBlock(SISO):
     """Base of blocks that act at equidistant instants, from the values just before each."""
 
@@ -22,4 +27,4 @@ class PeriodicBlock(SISO):
 
     def sampled(self, *jumps):
         """Return the statement of the jumps at each sample."""
-        return when(time >= self.next, *jumps, reinit(self.next, self.next + self.sample_period), at_start=True)
+        return at_instants(self.next, self.sample_period, *jumps)

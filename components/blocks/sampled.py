@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, Scalar, call, discrete, input, output, parameter, reinit, structural, time, when
-from components.blocks.periodic_block import first
+from acausal import Component, Scalar, call, discrete, input, output, parameter, structural
+from components.blocks.periodic_block import at_instants, first
 
 
 class Sampled(Component):
@@ -38,7 +38,7 @@ class Sampled(Component):
 
     def equations(self):
         act = call(self.f, [self.u], [self.result], [self.held if self.delay else self.result])
-        yield when(time >= self.next, act, reinit(self.next, self.next + self.period), at_start=True)
+        yield at_instants(self.next, self.period, act)
         yield self.y == (self.held if self.delay else self.result)
 
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any, ClassVar
 
-from acausal import Component, DeclarationError, Scalar, call, discrete, input, output, parameter, reinit, time, when
+from acausal import Component, DeclarationError, Scalar, call, discrete, input, output, parameter, time
+from components.blocks.periodic_block import at_instants
 from components.fmu.interface import Interface, read_interface
 from components.fmu.slave import Slave
 
@@ -34,7 +35,7 @@ class CoSimulation(Component):
         u, p = ([getattr(self, signal.field) for signal in part] for part in (own.inputs, own.parameters))
         slave, held = Slave(own, self.powers), getattr(self, HELD)
         act = call(slave, [u, p, self.step], [held, self.coupling_error])
-        yield when(time >= self.next, act, reinit(self.next, self.next + self.step), at_start=True)
+        yield at_instants(self.next, self.step, act)
         for k, signal in enumerate(own.outputs):
             yield getattr(self, signal.field) == held[k]
 
