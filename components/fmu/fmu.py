@@ -65,7 +65,7 @@ def FMU(path: str | os.PathLike[str], *, powers: Sequence[tuple[str, str]] = (),
     --------
     >>> tyre = FMU("tyre.fmu", step=1e-3, powers=[("v", "F")])  # doctest: +SKIP
     """
-    interface = read_interface(path)
+    interface = read_interface(path, {*dir(CoSimulation), *CoSimulation.fields, HELD})
     if interface.step is None and "step" not in values:
         raise DeclarationError(f"{os.path.basename(path)!r} declares no step size; give one: FMU(..., step=1e-3).")
     inputs, outputs = ([signal.field for signal in part] for part in (interface.inputs, interface.outputs))

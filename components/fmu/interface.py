@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 from keyword import iskeyword
 from typing import Any
@@ -20,7 +21,6 @@ TYPES = {
     },
 }
 BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
-TAKEN = {"step", "next", "held", "coupling_error", "interface", "powers", "equations", "fields"}  # by the component
 CONTINUOUS = ("Real", "Float64", "Float32")
 
 
@@ -69,8 +69,8 @@ class Interface:
     parameters: tuple[Signal, ...]
 
 
-def read_interface(path: str | os.PathLike[str]) -> Interface:
-    """Read the interface of an FMU for Co-Simulation.
+def read_interface(path: str | os.PathLike[str], taken: Collection[str]) -> Interface:
+    """Read the interface of an FMU for Co-Simulation; fields avoid names that are taken.
 
     Raises
     ------
@@ -92,14 +92,14 @@ def read_interface(path: str | os.PathLike[str]) -> Interface:
     wanted = {"input": list[Signal](), "output": list[Signal](), "parameter": list[Signal]()}
     units = {str(unit.name): unit.baseUnit for unit in found.unitDefinitions}
     for variable in found.modelVariables:
-        if variable.causality in wanted and (signal := _signal(variable, found.fmiVersion, units, path)):
+        if variable.causality in wanted and (signal := _signal(variable, found.fmiVersion, units, path, taken)):
             wanted[variable.causality].append(signal)
     experiment = found.defaultExperiment
     step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else None
     return Interface(path, found.fmiVersion, step, *(tuple(wanted[kind]) for kind in ("input", "output", "parameter")))
 
 
-def _signal(variable: Any, version: str, units: dict[str, Any], path: str) -> Signal | None:
+def _signal(variable: Any, version: str, units: dict[str, Any], path: str, taken: Collection[str]) -> Signal | None:
     """Return a variable; None for a parameter that is no scalar number, and keeps its value."""
     kind = TYPES[version].get(variable.type)
     if kind is None or variable.dimensions:
@@ -112,7 +112,7 @@ def _signal(variable: Any, version: str, units: dict[str, Any], path: str) -> Si
     unit, factor, offset = _unit(variable.unit or getattr(variable.declaredType, "unit", None), units)
     start = _number(variable.start)
     field = re.sub(r"\W+", "_", variable.name).strip("_")
-    field += "_" * (field in TAKEN or iskeyword(field))
+    field += "_" * (field in taken or iskeyword(field))
     text = re.sub(r"\s+", " ", variable.description or variable.name)
     return Signal(
         field, variable.name, variable.valueReference, kind, unit, text, factor * start + offset, factor, offset

@@ -178,6 +178,12 @@ def test_values_are_in_si(lag, tmp_path):
     assert result["lag.u"][-1] == 293.15
 
 
+def test_names_of_the_component_itself_are_avoided(lag, tmp_path):
+    path = changed(lag, tmp_path, (b'name="T"', b'name="check"'), (b'name="u"', b'name="step"'))
+    result = ac.simulate(with_lag(path, step=0.01, step_=1, check_=0.25), stop_time=0.5)
+    assert result["lag.y"][-1] == pytest.approx(1 - 0.96**50)
+
+
 def test_an_fmu_for_model_exchange_alone(spring, tmp_path):
     with zipfile.ZipFile(spring) as archive:
         element = re.search(rb"<CoSimulation[^>]*(/>|>.*?</CoSimulation>)", archive.read("modelDescription.xml"), re.S)
