@@ -108,7 +108,7 @@ def trapezoid(
 
     def within(begin: Any, duration: Any) -> Any:
         """Return a condition that holds for `duration` from `begin` on in every period."""
-        return cos(angle(begin + duration / 2)) > cos(math.pi * (_in(duration, "s") / period))
+        return cos(angle(begin + duration / 2)) >= cos(2 * math.pi * (_in(duration, "s") / 2 / period))
 
     def elapsed(begin: Any, duration: Any) -> Any:
         """Return the fraction of `duration` that has passed since `begin`, valid within it."""

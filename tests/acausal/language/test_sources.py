@@ -95,6 +95,19 @@ def test_a_triangle_is_that_of_scipy():
     np.testing.assert_allclose(result["y"], signal.sawtooth(2 * np.pi * result.time, 0.6), atol=1e-9)
 
 
+def test_a_pulse_that_begins_at_the_start_holds_there():
+    class Edges(Model):
+        u: Scalar = variable("pulses")
+        n: Scalar = ac.discrete("their edges", start=0)
+
+        def equations(self):
+            yield self.u == pulse(width=30, start_time=0.1)
+            yield ac.when(self.u > 0.5, ac.reinit(self.n, self.n + 1))
+
+    result = ac.simulate(Edges(), start_time=0.1, stop_time=2.6)
+    assert (result["u"][0], result["n"][0], result["n"][-1]) == (1, 0, 2)
+
+
 def test_time_table_jumps_where_two_times_are_equal_and_goes_on():
     rows = [(0, 1), (1, 2), (1, -1), (2, 0), (3, 4)]
     result = run(lambda m: time_table(rows, offset=0.5, start_time=0.25))
