@@ -67,7 +67,8 @@ def call(function: Callable[..., Any], arguments: Sequence[Any], results: Sequen
     ----------
     function : callable
         Called as function(time, *arguments), with numbers and arrays; returns one value, or a tuple of values for several
-        results. What it keeps lives in its object, of which each run takes a copy and calls `reset()`, if it has that.
+        results. What it keeps lives in its object, of which each run takes a copy and calls `reset()`, if it has that. At an
+        instant it is called once; with an attribute `pure` that is true, in each iteration of the event.
     arguments : sequence of Expr
         Values just before the event, except for the results of other functions that are called at it: those are new.
     results : sequence of Expr

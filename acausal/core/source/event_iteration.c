@@ -197,10 +197,9 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     const ac_tape *t = &u->tape[AC_JUMPS], *own = &u->tape[AC_COORDINATES];
     double *held = i->other, *set_by = i->work, *before = i->order; /* of states and of discrete variables: by which condition */
     int32_t k = next_jump(u, r->fires, 0), jumped = 0;
-    if (k < 0) return AC_OK;
-    const double *w = ac_run(i, AC_JUMPS), *projected = ac_run(i, AC_COORDINATES);
+    const double *w = k < 0 ? NULL : ac_run(i, AC_JUMPS), *projected = k < 0 ? NULL : ac_run(i, AC_COORDINATES);
     int32_t failed = ac_call_functions(i, r->fires);
-    if (failed) return failed;
+    if (failed || k < 0) return failed;
     memset(held, 0, (size_t)e->nx * sizeof *held), memset(set_by, 0, (size_t)u->discretes * sizeof *set_by);
     for (int32_t j = 0; j < own->outputs; j++) i->x[u->coordinate[j]] = projected[own->output[j]];
     ac_put(before, i->x, e->nx);
