@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import casadi as ca
 
 OUTPUT, INPUT, CONSTANT = ca.OP_OUTPUT, ca.OP_INPUT, ca.OP_CONST
 # Lookups of tables: names of the functions that CasADi calls, and codes of the operations.
-FINDS, LOADS = "find_in_column", "load_from_column"
-FIND, LOAD = 1001, 1002
+FINDS, LOADS, PUTS, VALUES = "find_in_column", "load_from_column", "put_argument", "value_of_arguments"
+FIND, LOAD, PUT, VALUE = 1001, 1002, 1003, 1004
 LOOKUPS = {FINDS: FIND, LOADS: LOAD}
+# Functions of other libraries, and their derivatives, whose derivatives are taken as 0; the number of values follows.
+EXTERNAL, SLOPE = "external_of", "slope_of"
+_CODES = LOOKUPS | {PUTS: PUT, VALUES: VALUE}
 
 # Options of functions to be read: without reuse of work slots, each operation has its own slot. Otherwise the query of
 # the output slots would take a third of the reading time.
@@ -55,8 +59,10 @@ def read_instructions(function: ca.Function) -> Instructions:
     every = range(function.n_instructions())
     ids = list(map(function.instruction_id, every))
     if ca.OP_CALL in ids:
-        function, ids = _with_lookups(function, ids)
-        every = range(len(ids))
+        function = _binary(function)
+        every, nodes = range(function.n_instructions()), _nodes(function)
+        ids = list(map(function.instruction_id, every))
+        ids = [_CODES[nodes[k].which_function().name()] if op == ca.OP_CALL else op for k, op in enumerate(ids)]
     inputs: list[Sequence[int]] = list(map(function.instruction_input, every))
     nodes = [k for k in every if ids[k] != OUTPUT]
     if function.sz_w() < len(nodes):
@@ -84,8 +90,8 @@ def _operands(function: ca.Function, ids: list[int], inputs: list[Sequence[int]]
     return found
 
 
-def _with_lookups(function: ca.Function, ids: list[int]) -> tuple[ca.Function, list[int]]:
-    """Return a function without the derivatives of lookups, which are 0, and its operation codes.
+def _binary(function: ca.Function) -> ca.Function:
+    """Return a function of binary operations alone: a call of another library is a chain of them.
 
     Raises
     ------
@@ -95,7 +101,7 @@ def _with_lookups(function: ca.Function, ids: list[int]) -> tuple[ca.Function, l
     nodes, values = _nodes(function), dict[int, Any]()
     given = function.sx_in()
     results = [ca.SX(function.sparsity_out(k)) for k in range(function.n_out())]
-    for k, op in enumerate(ids):
+    for k, op in enumerate(map(function.instruction_id, range(len(nodes)))):
         inputs, outputs = function.instruction_input(k), function.instruction_output(k)
         operands = [] if op in (INPUT, CONSTANT) else [values[i] for i in inputs]
         if op == INPUT:
@@ -106,19 +112,82 @@ def _with_lookups(function: ca.Function, ids: list[int]) -> tuple[ca.Function, l
             results[outputs[0]].nz[outputs[1]] = operands[0]
             continue
         elif op == ca.OP_CALL:
-            called = nodes[k].which_function()
-            if not any(name in called.name() for name in LOOKUPS):
-                raise ValueError(f"the function calls {called.name()}, whose operations are unknown")
-            own = called(*operands) if called.name() in LOOKUPS else ca.SX(0)
+            values |= zip(outputs, _called(nodes[k].which_function(), operands, len(outputs)), strict=True)
+            continue
         else:
             own = ca.SX.unary(op, *operands) if len(operands) == 1 else ca.SX.binary(op, *operands)
         values |= dict.fromkeys(outputs, own)
-    without = ca.Function("without", given, results, READABLE)
-    nodes = _nodes(without)
-    ids = list(map(without.instruction_id, range(without.n_instructions())))
-    return without, [LOOKUPS[nodes[k].which_function().name()] if op == ca.OP_CALL else op for k, op in enumerate(ids)]
+    return ca.Function("binary", given, results, READABLE)
+
+
+def _called(function: ca.Function, operands: list[Any], n: int) -> list[Any]:
+    """Return the results of a call: a lookup, whose derivatives are 0, or a function of another library, or a derivative.
+
+    Raises
+    ------
+    ValueError
+        If it is something else.
+    """
+    name = function.name()
+    if name in LOOKUPS:
+        return [function(*operands)]
+    if name.startswith((EXTERNAL, SLOPE)):
+        number, place, *arguments = operands
+        link = ca.SX(0)
+        for x in (*arguments, number):
+            link = _operation(PUTS)(x, link)
+        return [_operation(VALUES)(link, place)]
+    if EXTERNAL in name:
+        return _derivative(function)(ca.vertcat(*operands)).elements()
+    if any(known in name for known in (*LOOKUPS, SLOPE)):
+        return [ca.SX(0)] * n
+    raise ValueError(f"the function calls {name}, whose operations are unknown")
+
+
+_DERIVATIVES = dict[str, ca.Function]()
+
+
+def _derivative(function: ca.Function) -> ca.Function:
+    """Return a derivative of a function of another library, from nonzeros to nonzeros, as binary operations."""
+    if (name := function.name()) not in _DERIVATIVES:
+        given = [ca.SX.sym("a", function.sparsity_in(k)) for k in range(function.n_in())]
+        inputs, outputs = (_nonzeros(part) for part in (given, function.expand().call(given, True, False)))
+        _DERIVATIVES[name] = _binary(ca.Function("derivative", [inputs], [outputs], READABLE))
+    return _DERIVATIVES[name]
+
+
+def _nonzeros(matrices: list[ca.SX]) -> ca.SX:
+    """Return the nonzeros of matrices, a column."""
+    entries: list[Any] = [x for matrix in matrices for x in matrix.nonzeros()]
+    return ca.vertcat(ca.SX(0, 1), *entries)
+
+
+@cache
+def _operation(name: str) -> ca.Function:
+    """Return a function that stands for an operation; it is read alone."""
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    return ca.Function(name, [x, y], [x + y], {"never_inline": True})
+
+
+def slope_place(name: str, place: Any, argument: int) -> Any:
+    """Return where the derivative of a value by an argument stands behind the values."""
+    return place + int(name.rpartition("_")[2]) * (argument + 1)
+
+
+def is_known(name: str) -> bool:
+    """Return whether the operations of a function by this name are known."""
+    return name in LOOKUPS or name.startswith((EXTERNAL, SLOPE))
 
 
 def _nodes(function: ca.Function) -> list[Any]:
     """Return the operations as expressions."""
     return function.instructions_sx().elements()
+
+
+def places_called(expression: ca.SX) -> list[int]:
+    """Return which values of functions of other libraries an expression holds."""
+    inside = ca.Function("inside", ca.symvar(expression), [expression], READABLE)
+    nodes = _nodes(inside)
+    calls = [k for k, node in enumerate(nodes) if node.op() == ca.OP_CALL]
+    found = [k for k in calls if nodes[k].which_function().name().startswith(EXTERNAL)]
+    return [int(inside.instruction_constant(inside.instruction_input(k)[1])) for k in found]

@@ -42,10 +42,10 @@ class FunctionCalls:
         """Number of the condition, and the call."""
         return [(k, call) for k, call, _ in self._in_order]
 
-    @property
-    def owners(self) -> str:
-        """The components that call functions, in the order of declaration."""
-        return ", ".join(dict.fromkeys(f"`{guard.origin.path}`" for guard in self.guards if guard.calls))
+    def owners(self, pure: bool = True) -> str:
+        """Return the components that call functions, pure ones or not, in the order of declaration."""
+        calling = [g for g in self.guards if any(pure or not getattr(c.function, "pure", False) for c in g.calls)]
+        return ", ".join(dict.fromkeys(f"`{guard.origin.path}`" for guard in calling))
 
     @property
     def arguments(self) -> ca.SX:

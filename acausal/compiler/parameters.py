@@ -20,6 +20,7 @@ from acausal.flatten.numeric import misshapen, numeric
 from acausal.language import fields as f
 from acausal.language.driven import Driven
 from acausal.language.expression import Expr
+from acausal.language.external import External
 from acausal.language.quantities import plain
 from acausal.language.table import Table
 from acausal.language.value_checks import shown
@@ -29,7 +30,7 @@ from acausal.symbols import dense, scalars, vec
 class _Values(np.ndarray):
     """Values of parameters, with the tables whose numbers are among them, by their places."""
 
-    tables: dict[int, Table]
+    tables: dict[int, Table | External]
 
     def __array_finalize__(self, of: Any) -> None:
         self.tables = getattr(of, "tables", {})

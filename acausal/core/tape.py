@@ -16,7 +16,7 @@ import numpy as np
 from acausal.core.columns import COLUMNS
 from acausal.core.library import ArrangedData, OperationsData, TapeData, address, loaded
 from acausal.garbage import uncollected
-from acausal.instructions import CONSTANT, FIND, INPUT, LOAD, Instructions, read_instructions
+from acausal.instructions import CONSTANT, FIND, INPUT, LOAD, PUT, VALUE, Instructions, read_instructions
 
 Int32s: TypeAlias = "ctypes.Array[ctypes.c_int32]"
 
@@ -27,7 +27,7 @@ KINDS = (
     *(ca.OP_SINH, ca.OP_COSH, ca.OP_TANH, ca.OP_ASINH, ca.OP_ACOSH, ca.OP_ATANH, ca.OP_FABS, ca.OP_SIGN, ca.OP_FLOOR),
     *(ca.OP_CEIL, ca.OP_FMOD, ca.OP_REMAINDER, ca.OP_COPYSIGN, ca.OP_FMIN, ca.OP_FMAX, ca.OP_HYPOT, ca.OP_LOG1P),
     *(ca.OP_EXPM1, ca.OP_ERF, ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NE, ca.OP_NOT, ca.OP_AND, ca.OP_OR),
-    *(ca.OP_IF_ELSE_ZERO, ca.OP_ASSIGN, FIND, LOAD),
+    *(ca.OP_IF_ELSE_ZERO, ca.OP_ASSIGN, FIND, LOAD, PUT, VALUE),
 )
 KIND = {op: kind for kind, op in enumerate(KINDS)} | {ca.OP_CONSTPOW: KINDS.index(ca.OP_POW)}
 # What the library takes as the kinds of a function's operations, and of its leaves.

@@ -13,6 +13,7 @@ from acausal.export.beginning import Beginning
 from acausal.export.local_columns import local_columns
 from acausal.flatten.model_inputs import inputs_of
 from acausal.language.functions import time
+from acausal.language.table import Table
 from acausal.symbols import scalars, stacked
 
 
@@ -80,7 +81,8 @@ def given(compiled: CompiledModel, p: np.ndarray, beginning: Beginning) -> Given
     inputs = [k for k, s in enumerate(own) if s.element_hash() in known]
     fixed = _fixed(compiled)
     inner = {k for k, name in enumerate(flat.parameters.names) if name in flat.parameters.weighing}
-    numbers, columns = local_columns(getattr(p, "tables", flat.parameters.tables))
+    tables = getattr(p, "tables", flat.parameters.tables)
+    numbers, columns = local_columns({k: own for k, own in tables.items() if isinstance(own, Table)})
     roles = [
         Role.INPUT
         if k in set(inputs)

@@ -22,6 +22,7 @@ from acausal.language.call_arguments import declaration_error
 from acausal.language.component import Component
 from acausal.language.driven import Driven, law_of
 from acausal.language.expression import Expr, as_expr
+from acausal.language.external import External
 from acausal.language.functions import time
 from acausal.language.table import Table
 from acausal.language.value_checks import shown
@@ -48,10 +49,10 @@ class Parameters:
     structural_zeros: list[str] = field(default_factory=list)
     bound: dict[str, str] = field(default_factory=dict)
     limits: list[tuple[str, ca.SX, f.Parameter]] = field(default_factory=list)
-    tables: dict[int, Table] = field(default_factory=dict)
+    tables: dict[int, Table | External] = field(default_factory=dict)
     raised: set[int] = field(default_factory=set)
 
-    def add_table(self, symbol: ca.SX, table: Table, raised: bool) -> None:
+    def add_table(self, symbol: ca.SX, table: Table | External, raised: bool) -> None:
         """Add the number of the first column of a table; `raised` where its derivative is requested."""
         self.tables[len(self.names)] = table
         self.raised |= {len(self.names)} if raised else set()

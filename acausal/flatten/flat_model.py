@@ -12,6 +12,7 @@ from acausal.flatten.discontinuities import Guard, Law, Promise
 from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.language.external import External
 from acausal.language.table import Table
 from acausal.symbols import stacked
 from acausal.units import Dimension
@@ -188,7 +189,7 @@ class FlatParameters:
     limits: tuple[tuple[str, ca.SX, f.Parameter], ...]
     bound: Mapping[str, str]
     structural_zeros: tuple[str, ...]
-    tables: Mapping[int, Table]
+    tables: Mapping[int, Table | External]
     raised: frozenset[int]
 
 

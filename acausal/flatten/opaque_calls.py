@@ -9,7 +9,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin, value_origin
-from acausal.instructions import LOOKUPS
+from acausal.instructions import is_known
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import called, scalars, stacked, vec
 
@@ -37,7 +37,7 @@ def refuse_opaque_expressions(raw: CollectedStatements) -> None:
     everything = _column([*[sx for sx, _ in stated], *others])
     known = [raw.variables, stacked(raw.build.parameters.symbols), _column(_requested(raw))]
     function = ca.Function("all", known, [everything], {"allow_free": True})
-    if not LOOKUPS.keys() >= set(function.get_function()):
+    if not all(map(is_known, function.get_function())):
         raise DeclarationError(
             f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function whose operations are unknown, "
             "such as an interpolant or an external function. Write a table with table(x, Table(...)); call a function of "
@@ -125,4 +125,4 @@ def _column(entries: Iterable[ca.SX]) -> ca.SX:
 
 def _calls(expression: ca.SX) -> bool:
     """Return whether an expression contains opaque calls."""
-    return not called(expression) <= LOOKUPS.keys()
+    return not all(map(is_known, called(expression)))

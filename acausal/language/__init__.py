@@ -33,6 +33,7 @@ from acausal.language.declare import (
     variable,
 )
 from acausal.language.expression import Equation, Expr, as_expr
+from acausal.language.external import External, external
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -85,6 +86,7 @@ __all__ = [
     "Equation",
     "Expectation",
     "Expr",
+    "External",
     "Matrix33",
     "Model",
     "Path",
@@ -116,6 +118,7 @@ __all__ = [
     "effect",
     "exp",
     "expect",
+    "external",
     "feedback",
     "fixed",
     "floor",

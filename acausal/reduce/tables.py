@@ -6,8 +6,10 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
+from acausal.instructions import places_called
+from acausal.language.external import External
 from acausal.structure import Plan
-from acausal.symbols import picked, stacked
+from acausal.symbols import picked, scalars, stacked
 
 # Continuous derivatives of an interpolant by its kind; of the others one.
 CONTINUOUS = {"constant": -1, "linear": 0, "cubic": 2}
@@ -26,6 +28,7 @@ def table_kinks(flat: FlatModel, plan: Plan) -> ca.SX:
         return ca.SX(0, 1)
     highest = _highest(flat, plan)
     kinds = {place: CONTINUOUS.get(table.kind, 1) for place, table in own.tables.items()}
+    _refuse_external(flat, highest)
     for place, (order, row) in highest.items():
         if kinds[place] == 0 and order > 1:
             raise DeclarationError(
@@ -36,6 +39,21 @@ def table_kinks(flat: FlatModel, plan: Plan) -> ca.SX:
     places = {own.symbols[place].element_hash(): place for place in own.tables}
     found = [(places[number.element_hash()], next_time) for number, next_time in flat.discontinuities.kinks]
     return stacked([t for place, t in found if kinds[place] <= max(0, highest.get(place, (0, 0))[0] - 1)])
+
+
+def _refuse_external(flat: FlatModel, highest: dict[int, tuple[int, int]]) -> None:
+    """Raise DeclarationError if the derivative of a value of another library is needed."""
+    own = flat.parameters
+    for place, (order, row) in highest.items():
+        function = own.tables[place]
+        if not isinstance(function, External) or order < 1:
+            continue
+        value = next(iter(places_called(scalars(flat.equations.residuals)[row])))
+        raise DeclarationError(
+            f"{flat.equations.origins[row]}: the derivative of {function.names[value]} of {own.names[place]} by time is "
+            "needed, which it does not have. Let it return a force and take a motion, or filter what it returns, such as by "
+            "exact=False in rotational.Position."
+        )
 
 
 def _highest(flat: FlatModel, plan: Plan) -> dict[int, tuple[int, int]]:

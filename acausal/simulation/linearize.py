@@ -150,7 +150,7 @@ def linearize(
     compiled, p = ready(model, at_time(model, parameters, inputs, time))
     problem = Problem(compiled, p)
     at = first_point(problem, time, how)
-    if owners := compiled.guards.calls.owners:
+    if owners := compiled.guards.calls.owners(pure=False):
         caution(f"the functions of {owners} are not called: the linear system holds their outputs constant.")
     _refuse_singular(problem, at, how == "steady")
     own, nx = _inputs(compiled), compiled.nx

@@ -66,7 +66,7 @@ EXTRAS = {
     "components/fmu/interface.py": {"fmpy"},
     "models/signals/crane.py": {"numpy", "scipy"},
     "models/signals/quarter_car.py": {"numpy"},
-    "components/fmu/slave.py": {"fmpy"},
+    "components/fmu/instance.py": {"fmpy"},
     "components/fe/elements/quadratic.py": {"skfem"},
     "components/fe/formats/ansys_process.py": {"ansys"},
     "components/fe/body/recovery.py": {"meshio"},
@@ -75,7 +75,9 @@ EXTRAS = {
 # Files of components that read and write files, or are a command, as the engine does.
 FILES = {"acausal.result", "acausal.result.files"}
 INSIDE = {
-    "components/fmu/interface.py": {"acausal.units"},
+    "components/fmu/signals.py": {"acausal.units"},
+    "components/fmu/exchange_events.py": {"acausal.core.externals", "acausal.core.library"},
+    "components/fmu/exchange_function.py": {"acausal.core.externals", "acausal.core.library"},
     "components/fe/reduction/archive.py": FILES,
     "components/fe/formats/third_party.py": FILES,
     "components/fe/formats/readers.py": FILES,

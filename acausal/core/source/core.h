@@ -28,7 +28,7 @@ enum {
     AC_ADD, AC_SUB, AC_MUL, AC_DIV, AC_NEG, AC_SQ, AC_TWICE, AC_INV, AC_SQRT, AC_SIN, AC_COS, AC_TAN, AC_ASIN, AC_ACOS,
     AC_ATAN, AC_ATAN2, AC_EXP, AC_LOG, AC_POW, AC_SINH, AC_COSH, AC_TANH, AC_ASINH, AC_ACOSH, AC_ATANH, AC_FABS, AC_SIGN,
     AC_FLOOR, AC_CEIL, AC_FMOD, AC_REMAINDER, AC_COPYSIGN, AC_FMIN, AC_FMAX, AC_HYPOT, AC_LOG1P, AC_EXPM1, AC_ERF, AC_LT,
-    AC_LE, AC_EQ, AC_NE, AC_NOT, AC_AND, AC_OR, AC_IF, AC_ASSIGN, AC_FIND, AC_LOAD, AC_OPERATIONS
+    AC_LE, AC_EQ, AC_NE, AC_NOT, AC_AND, AC_OR, AC_IF, AC_ASSIGN, AC_FIND, AC_LOAD, AC_PUT, AC_VALUE, AC_OPERATIONS
 };
 
 /* Columns by their numbers: how many numbers follow, then these; NULL where there is none any more. */
@@ -42,6 +42,16 @@ double ac_load(const ac_tables *t, double place, double number);
 AC_PUBLIC void ac_share_tables(const ac_tables *tables); /* those of this process; they have to stay */
 const ac_tables *ac_shared_tables(void);
 
+/* A function of another library, in the place of a column. */
+#define AC_EXTERNAL (-1)
+typedef struct ac_external ac_external;
+struct ac_external {
+    double count;                                          /* AC_EXTERNAL, less than that of any column */
+    int32_t arguments;
+    double *argument;                                      /* (arguments) NAN where any will do */
+    double (*value)(ac_external *own, int32_t number);     /* one of its values, or of their derivatives */
+};
+
 /* A list of operations on an array w: constants, inputs, then the results in their order.
    Operations of one kind stand together in runs. The first `early` runs need parameters and constants of a segment alone. */
 typedef struct {
@@ -50,9 +60,10 @@ typedef struct {
     const int32_t *kind, *length;               /* (runs) */
     const int32_t *first, *second;              /* (results) arguments, places in w */
     const int32_t *output;                      /* (outputs) places in w */
-    const ac_tables *tables;                    /* that AC_FIND and AC_LOAD look up; NULL for none */
+    const ac_tables *tables;                    /* that AC_FIND, AC_LOAD and AC_VALUE look up; NULL for none */
 } ac_tape;
 
+double ac_external_value(const ac_tape *tape, const double *w, int32_t last, double value);
 size_t ac_tape_length(const ac_tape *tape); /* of w, and one more: never 0 */
 AC_PUBLIC void ac_tape_run(const ac_tape *tape, double *w, int32_t from, int32_t to);
 AC_PUBLIC void ac_tape_rows(const ac_tape *tape, double *w, int32_t rows, int32_t parts, const int32_t *size,

@@ -19,7 +19,7 @@
     break
 
 /* Results of a run never lie where its arguments do not stand before them: in order, one after the other. */
-static void run(const ac_tables *tables, int32_t kind, int32_t n, const double *w, const int32_t *a, const int32_t *b, double *r) {
+static void run(const ac_tape *t, int32_t kind, int32_t n, const double *w, const int32_t *a, const int32_t *b, double *r) {
     switch (kind) {
     case AC_ADD: PAIRS(x + y);
     case AC_SUB: PAIRS(x - y);
@@ -68,8 +68,12 @@ static void run(const ac_tables *tables, int32_t kind, int32_t n, const double *
     case AC_OR: PAIRS(x != 0 || y != 0);
     case AC_IF: PAIRS(x != 0 ? y : 0);
     case AC_ASSIGN: EACH(x);
-    case AC_FIND: PAIRS(ac_find(tables, x, y, r[k])); /* from where it was in the evaluation before */
-    case AC_LOAD: PAIRS(ac_load(tables, x, y));
+    case AC_FIND: PAIRS(ac_find(t->tables, x, y, r[k])); /* from where it was in the evaluation before */
+    case AC_LOAD: PAIRS(ac_load(t->tables, x, y));
+    case AC_PUT: EACH(x); /* the other argument is the link before */
+    case AC_VALUE:
+        for (int32_t k = 0; k < n; k++) r[k] = ac_external_value(t, w, a[k], w[b[k]]);
+        break;
     default: break;
     }
 }
@@ -82,7 +86,7 @@ void ac_tape_run(const ac_tape *t, double *w, int32_t from, int32_t to) {
     for (int32_t k = 0; k < from; k++) done += t->length[k];
     for (int32_t k = from; k < to; k++) {
         const int32_t n = t->length[k];
-        run(t->tables, t->kind[k], n, w, t->first + done, t->second + done, w + t->constants + t->inputs + done);
+        run(t, t->kind[k], n, w, t->first + done, t->second + done, w + t->constants + t->inputs + done);
         done += n;
     }
 }
