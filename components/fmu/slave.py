@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-import tempfile
 from contextlib import suppress
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-from components.fmu.interface import CONTINUOUS, Interface, Signal
+from components.fmu.instance import get_values, initialized, set_values
+from components.fmu.interface import Interface
 
 
 class Slave:
@@ -49,11 +46,11 @@ class Slave:
         Returns the outputs, shape (n,), and the error of the coupling in J.
         """
         if self._fmu is None:
-            self._begin(time, u, p)
+            self._fmu, self._time = initialized(self.interface, "CoSimulation", time, p, u), time
         else:
             self._step(step)
-            self._set(self.interface.inputs, u)
-        y = np.array([self._get(signal) for signal in self.interface.outputs])
+            set_values(self._fmu, self.interface.inputs, u)
+        y = get_values(self._fmu, self.interface.outputs)
         now = np.asarray(u)[self._pairs[0]], y[self._pairs[1]]
         if self._last is not None:
             self._error += step / 2 * float(np.sum(np.abs(self._last[1] * now[0] - self._last[0] * now[1])))
@@ -68,44 +65,8 @@ class Slave:
             raise
         self._time += step
 
-    def _begin(self, time: float, u: Any, p: Any) -> None:
-        from fmpy.simulation import instantiate_fmu
-
-        own = self.interface
-        folder, description = _unpacked(own.path, os.stat(own.path).st_mtime_ns)
-        self._fmu, self._time = instantiate_fmu(folder, description, "CoSimulation"), time
-        self._set(own.parameters, p)
-        start = {"startTime": time}
-        if own.version == "2.0":
-            self._fmu.setupExperiment(**start)
-        self._fmu.enterInitializationMode(**({} if own.version == "2.0" else start))
-        self._set(own.inputs, u)
-        self._fmu.exitInitializationMode()
-
-    def _set(self, signals: tuple[Signal, ...], values: Any) -> None:
-        for signal, value in zip(signals, values, strict=True):
-            number = (float(value) - signal.offset) / signal.factor
-            given = number > 0.5 if signal.kind == "Boolean" else number if signal.kind in CONTINUOUS else round(number)
-            getattr(self._fmu, f"set{signal.kind}")([signal.reference], [given])
-
-    def _get(self, signal: Signal) -> float:
-        return signal.factor * float(getattr(self._fmu, f"get{signal.kind}")([signal.reference])[0]) + signal.offset
-
     def __del__(self) -> None:
         if fmu := getattr(self, "_fmu", None):
             with suppress(Exception):  # an FMU that fails at its end has done its work
                 fmu.terminate()
                 fmu.freeInstance()
-
-
-@cache
-def _unpacked(path: str, changed: int) -> tuple[str, Any]:
-    """Return the folder of an FMU, removed at the end of the process, and its description; anew where the file has changed."""
-    import atexit
-
-    from fmpy import extract, read_model_description
-
-    folder = tempfile.mkdtemp()
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    extract(path, unzipdir=folder)
-    return folder, read_model_description(folder, validate=False)

@@ -187,7 +187,7 @@ def test_names_of_the_component_itself_are_avoided(lag, tmp_path):
 def test_an_fmu_for_model_exchange_alone(spring, tmp_path):
     with zipfile.ZipFile(spring) as archive:
         element = re.search(rb"<CoSimulation[^>]*(/>|>.*?</CoSimulation>)", archive.read("modelDescription.xml"), re.S)
-    with pytest.raises(ac.DeclarationError, match="Model Exchange alone; it must be for Co-Simulation"):
+    with pytest.raises(ac.DeclarationError, match="for Model Exchange; it must be for Co-Simulation"):
         FMU(changed(spring, tmp_path, (element.group(), b"")), step=0.1)
 
 
