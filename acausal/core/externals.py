@@ -36,8 +36,8 @@ class ExternalData(ctypes.Structure):
     )
 
 
-class FmiPartData(ctypes.Structure):
-    """What the library takes as an FMU for Model Exchange, see `fmi_part.c`."""
+class FmuData(ctypes.Structure):
+    """What the library takes as an FMU for Model Exchange, see `exchanged_fmu.c`."""
 
     _fields_ = (
         ("function", ExternalData),

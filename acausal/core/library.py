@@ -67,7 +67,7 @@ FUNCTIONS = {
     "ac_tape_rows": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32, c_void_p, c_void_p, c_void_p, c_void_p)),
     "ac_share_tables": (None, (POINTER(TablesData),)),
     "ac_casadi_call_rows": (None, (c_int32,)),
-    "ac_fmi_value": (c_double, (c_void_p, c_int32)),
+    "ac_fmu_value": (c_double, (c_void_p, c_int32)),
     "ac_lu_make": (c_void_p, (c_int32, c_void_p, c_void_p)),
     "ac_lu_factor": (c_int32, (c_void_p, c_void_p)),
     "ac_lu_solve": (None, (c_void_p, c_void_p)),

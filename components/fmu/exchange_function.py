@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from acausal import External
-from acausal.core.externals import FMI_FUNCTIONS, MARK, PREPARE, ExternalData, FmiPartData
+from acausal.core.externals import FMI_FUNCTIONS, MARK, PREPARE, ExternalData, FmuData
 from acausal.core.library import address, loaded
 from components.fmu.instance import initialized
 from components.fmu.interface import Interface
@@ -66,8 +66,8 @@ class ExchangeFunction(External):
         self.nominal = self._arrays["nominal"]
         own_ready = weakref.WeakMethod(self._ready)  # no cycle, so that the FMU ends with its last use
         self._prepare = PREPARE(lambda: own_ready()())  # type: ignore[misc]
-        value = ctypes.cast(loaded(runs=False).ac_fmi_value, ctypes.c_void_p).value
-        self.data = FmiPartData(ExternalData(MARK, len(self.argument), address(self.argument), value))
+        value = ctypes.cast(loaded(runs=False).ac_fmu_value, ctypes.c_void_p).value
+        self.data = FmuData(ExternalData(MARK, len(self.argument), address(self.argument), value))
         self.data.version = int(interface.version[0])
         self.data.states, self.data.inputs, self.data.outputs, self.data.indicators = (
             self.nx,
@@ -140,7 +140,7 @@ class ExchangeFunction(External):
 
     def at(self, place: int) -> float:
         """Return a value at the arguments."""
-        return loaded(runs=False).ac_fmi_value(ctypes.byref(self.data), place)
+        return loaded(runs=False).ac_fmu_value(ctypes.byref(self.data), place)
 
     def save(self) -> int:
         """Save the state of the FMU; return the number of its event mode."""

@@ -48,7 +48,7 @@ typedef struct ac_external ac_external;
 struct ac_external {
     double count;                                          /* AC_EXTERNAL, less than that of any column */
     int32_t arguments;
-    double *argument;                                      /* (arguments) NAN where any will do */
+    double *argument;                                      /* (arguments) DBL_MAX where any will do */
     double (*value)(ac_external *own, int32_t number);     /* one of its values, or of their derivatives */
 };
 
@@ -63,6 +63,8 @@ typedef struct {
     const ac_tables *tables;                    /* that AC_FIND, AC_LOAD and AC_VALUE look up; NULL for none */
 } ac_tape;
 
+AC_PUBLIC void ac_casadi_call_rows(int32_t rows);                     /* of what CasADi gives to `ac_casadi_call` */
+AC_PUBLIC double ac_fmu_value(ac_external *function, int32_t number); /* of an FMU for Model Exchange, see `exchanged_fmu.c` */
 double ac_external_value(const ac_tape *tape, const double *w, int32_t last, double value);
 size_t ac_tape_length(const ac_tape *tape); /* of w, and one more: never 0 */
 AC_PUBLIC void ac_tape_run(const ac_tape *tape, double *w, int32_t from, int32_t to);

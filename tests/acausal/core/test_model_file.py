@@ -18,7 +18,7 @@ from acausal.core.build.compiling import CORE, own_compiler
 from acausal.core.library import loaded
 from acausal.core.model_file import VERSION, framed
 from acausal.core.tape import KINDS
-from acausal.instructions import FIND, LOAD
+from acausal.instructions import FIND, LOAD, PUT, VALUE
 from models import SCENES
 from tests.acausal.core.stored import SANITIZED, SPANS, driver, integrated, replayed, sanitizes, scene, written
 
@@ -26,7 +26,8 @@ READ, FOREIGN, OTHER_VERSION, LENGTH, CHECKSUM, CONTENT = range(6)
 # Numbers of a file stay what they are: new operations come at the end.
 OPERATIONS = (
     "ADD SUB MUL DIV NEG SQ TWICE INV SQRT SIN COS TAN ASIN ACOS ATAN ATAN2 EXP LOG POW SINH COSH TANH ASINH ACOSH ATANH FABS "
-    "SIGN FLOOR CEIL FMOD REMAINDER COPYSIGN FMIN FMAX HYPOT LOG1P EXPM1 ERF LT LE EQ NE NOT AND OR IF ASSIGN FIND LOAD"
+    "SIGN FLOOR CEIL FMOD REMAINDER COPYSIGN FMIN FMAX HYPOT LOG1P EXPM1 ERF LT LE EQ NE NOT AND OR IF ASSIGN FIND LOAD "
+    "PUT VALUE"
 )
 SANITIZER = "the C compiler has no sanitisers"
 
@@ -212,5 +213,5 @@ def test_numbers_of_operations_stay():
     assert enum
     assert re.findall(r"AC_(\w+),", enum[1]) == OPERATIONS.split()
     names = {"IF": "IF_ELSE_ZERO"}
-    own = {"FIND": FIND, "LOAD": LOAD}
+    own = {"FIND": FIND, "LOAD": LOAD, "PUT": PUT, "VALUE": VALUE}
     assert list(KINDS) == [own.get(name) or getattr(ca, f"OP_{names.get(name, name)}") for name in OPERATIONS.split()]

@@ -277,7 +277,7 @@ def test_every_operation_is_read_as_it_was():
     for expression in [x, y, sparse, *column, *powers]:
         writer.add(expression)
     operations, symbols = writer.operations()
-    assert len(NAMES) == len(KINDS)
+    assert len(NAMES) == len(KINDS) - 2  # no file holds functions of other libraries
     reader = Reader(operations, lambda k, name: symbols[k])
     for k, expression in enumerate([x, y, sparse, *column, *powers]):
         assert reader[k].sparsity() == expression.sparsity()

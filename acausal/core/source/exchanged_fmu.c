@@ -6,11 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-#define ANY DBL_MAX /* an argument that does not matter */
+#define ALIKE DBL_MAX /* an argument that does not matter */
 #define OK 1        /* of a status: fmi2Warning and fmi3Warning */
 
 enum { DERIVATIVES = 1, OUTPUTS = 2, INDICATORS = 4, ALL = 7 };
 
+typedef void any(void); /* of version 2 or 3 */
 typedef int set_time(void *, double);
 typedef int numbers(void *, double *, size_t);
 typedef int reals2(void *, const uint32_t *, size_t, double *);
@@ -26,32 +27,32 @@ typedef struct {
     void *instance;
     set_time *set_time;
     numbers *set_states, *get_derivatives, *get_indicators;
-    void *set_real, *get_real, *directional; /* the last NULL where there is none */
+    any *set_real, *get_real, *directional; /* the last NULL where there is none */
     const uint32_t *known_ref;     /* (states + inputs) */
     const uint32_t *unknown_ref;   /* (states + outputs) derivatives and outputs */
     const double *nominal;         /* (states + inputs) */
     double *now, *values, *slopes; /* (arguments), (values), (1 + states + inputs, values) */
     double *before;                /* (values) work */
     int32_t *known_slope;          /* (1 + states + inputs) */
-} ac_fmi_part;
+} ac_fmu;
 
-static int32_t values_of(const ac_fmi_part *f) { return f->states + f->outputs + f->indicators; }
+static int32_t values_of(const ac_fmu *f) { return f->states + f->outputs + f->indicators; }
 
-static int real(const ac_fmi_part *f, void *function, const uint32_t *reference, int32_t n, double *value) {
+static int real(const ac_fmu *f, any *function, const uint32_t *reference, int32_t n, double *value) {
     if (!n) return 1;
     if (f->version == 2) return ((reals2 *)function)(f->instance, reference, (size_t)n, value) <= OK;
     return ((reals3 *)function)(f->instance, reference, (size_t)n, value, (size_t)n) <= OK;
 }
 
 /* Set one of the arguments by which it is differentiated: time, a state, an input. */
-static int put(ac_fmi_part *f, int32_t column) {
+static int put(ac_fmu *f, int32_t column) {
     if (!column) return f->set_time(f->instance, f->now[1]) <= OK;
     if (column <= f->states) return f->set_states(f->instance, f->now + 2, (size_t)f->states) <= OK;
     return real(f, f->set_real, f->known_ref + column - 1, 1, f->now + 1 + column);
 }
 
 /* Get values of some kinds. */
-static int get(ac_fmi_part *f, int32_t kinds, double *to) {
+static int get(ac_fmu *f, int32_t kinds, double *to) {
     const size_t nx = (size_t)f->states, nz = (size_t)f->indicators;
     if ((kinds & DERIVATIVES) && nx && f->get_derivatives(f->instance, to, nx) > OK) return 0;
     if ((kinds & OUTPUTS) && !real(f, f->get_real, f->unknown_ref + nx, f->outputs, to + nx)) return 0;
@@ -59,7 +60,7 @@ static int get(ac_fmi_part *f, int32_t kinds, double *to) {
 }
 
 /* Know the kind of a value: outputs that depend on fewer arguments than others are asked for before these are known. */
-static int know(ac_fmi_part *f, int32_t number) {
+static int know(ac_fmu *f, int32_t number) {
     const int32_t kind = number < f->states ? DERIVATIVES : number < f->states + f->outputs ? OUTPUTS : INDICATORS;
     if (!(f->known & kind) && !get(f, kind, f->values)) return 0;
     f->known |= kind;
@@ -67,12 +68,12 @@ static int know(ac_fmi_part *f, int32_t number) {
 }
 
 /* Bring it to the arguments. */
-static int stand(ac_fmi_part *f) {
+static int stand(ac_fmu *f) {
     const int32_t own = 2 + f->states + f->inputs, all = f->function.arguments;
     double *given = f->function.argument;
     int same = f->ready, moved;
     for (int32_t k = 0; k < all; k++) {
-        if (given[k] == ANY) given[k] = f->now[k];
+        if (given[k] == ALIKE) given[k] = f->now[k];
         if (isnan(given[k])) return 0;
     }
     same &= given[0] == f->now[0] && !memcmp(given + own, f->now + own, (size_t)(all - own) * sizeof *given);
@@ -91,7 +92,7 @@ static int stand(ac_fmi_part *f) {
 }
 
 /* Derivatives by differences: central ones, by time forward as no earlier time need be allowed. */
-static int difference(ac_fmi_part *f, int32_t column, double *slope) {
+static int difference(ac_fmu *f, int32_t column, double *slope) {
     const int32_t m = values_of(f);
     double *now = f->now + 1 + column, at = *now, to[2];
     const double size = fmax(fabs(at), column ? f->nominal[column - 1] : 1), h = (column ? cbrt(DBL_EPSILON) : sqrt(DBL_EPSILON)) * size;
@@ -105,7 +106,7 @@ static int difference(ac_fmi_part *f, int32_t column, double *slope) {
     return put(f, column) && good;
 }
 
-static int direct(ac_fmi_part *f, int32_t column, double *slope) {
+static int direct(ac_fmu *f, int32_t column, double *slope) {
     const double one = 1;
     const size_t n = (size_t)(f->states + f->outputs);
     const uint32_t *by = f->known_ref + column - 1;
@@ -113,7 +114,7 @@ static int direct(ac_fmi_part *f, int32_t column, double *slope) {
     return ((directional3 *)f->directional)(f->instance, f->unknown_ref, n, by, 1, &one, 1, slope, n) <= OK;
 }
 
-static int differentiate(ac_fmi_part *f, int32_t column) {
+static int differentiate(ac_fmu *f, int32_t column) {
     double *slope = f->slopes + (size_t)column * (size_t)values_of(f);
     if (f->known_slope[column]) return 1;
     if ((!column || !f->directional || f->indicators) && !difference(f, column, slope)) return 0;
@@ -121,8 +122,8 @@ static int differentiate(ac_fmi_part *f, int32_t column) {
     return f->known_slope[column] = 1;
 }
 
-AC_PUBLIC double ac_fmi_value(ac_external *function, int32_t number) {
-    ac_fmi_part *f = (ac_fmi_part *)function;
+AC_PUBLIC double ac_fmu_value(ac_external *function, int32_t number) {
+    ac_fmu *f = (ac_fmu *)function;
     const int32_t m = values_of(f);
     if (!stand(f)) return NAN;
     if (!m) return 0;
