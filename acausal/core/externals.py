@@ -21,7 +21,7 @@ PREPARE = ctypes.CFUNCTYPE(ctypes.c_int32)
 MARK = -1.0  # of a function among the columns
 FMI_FUNCTIONS = (
     *("set_time", "set_states", "get_derivatives", "get_indicators"),
-    *("set_real", "get_real", "directional"),
+    *("set_real", "get_real", "completed", "directional"),
 )
 
 
@@ -33,6 +33,7 @@ class ExternalData(ctypes.Structure):
         ("arguments", ctypes.c_int32),
         ("argument", ctypes.c_void_p),
         ("value", ctypes.c_void_p),
+        ("completed", ctypes.c_void_p),
     )
 
 
@@ -42,7 +43,7 @@ class FmuData(ctypes.Structure):
     _fields_ = (
         ("function", ExternalData),
         *((name, ctypes.c_int32) for name in ("version", "states", "inputs", "outputs", "indicators", "parameters")),
-        *((name, ctypes.c_int32) for name in ("ready", "set", "known")),
+        *((name, ctypes.c_int32) for name in ("completes", "wanted", "ready", "set", "known")),
         ("prepare", PREPARE),
         *((name, ctypes.c_void_p) for name in ("instance", *FMI_FUNCTIONS)),
         *((name, ctypes.c_void_p) for name in ("known_ref", "unknown_ref", "nominal")),

@@ -68,6 +68,8 @@ FUNCTIONS = {
     "ac_share_tables": (None, (POINTER(TablesData),)),
     "ac_casadi_call_rows": (None, (c_int32,)),
     "ac_fmu_value": (c_double, (c_void_p, c_int32)),
+    "ac_fmu_completed": (c_int32, (c_void_p,)),
+    "ac_run_externals": (None, (c_void_p, c_int32, c_void_p)),
     "ac_lu_make": (c_void_p, (c_int32, c_void_p, c_void_p)),
     "ac_lu_factor": (c_int32, (c_void_p, c_void_p)),
     "ac_lu_solve": (None, (c_void_p, c_void_p)),

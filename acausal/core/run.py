@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from ctypes import Structure, byref, c_double, c_int32, c_int64, c_void_p
 from dataclasses import dataclass
 from enum import IntEnum
@@ -176,6 +176,11 @@ class Run:
         """
         self._function = CALL(function), arguments, results  # the library keeps their addresses
         self._library.ac_run_functions(self._memory, self._function[0], address(arguments), address(results))
+
+    def tell_steps(self, functions: Sequence[int]) -> None:
+        """Take addresses of functions of other libraries that are told of accepted steps."""
+        self._externals = np.array(functions, dtype=np.uintp)  # the library keeps its address
+        self._library.ac_run_externals(self._memory, len(functions), address(self._externals))
 
     def begin(
         self,

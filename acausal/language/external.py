@@ -33,6 +33,8 @@ class External:
     """
 
     kind = "external"
+    completes = False  # whether it is told of accepted steps
+    error: Exception | None = None  # why it gave no value
 
     def __init__(self, path: str, names: Sequence[str], data: ctypes.Structure) -> None:
         self.path, self.names, self._data = path, tuple(names), data
@@ -41,6 +43,11 @@ class External:
     def settings(self) -> tuple[Any, ...]:
         """What equations depend on."""
         return self.kind, self.names
+
+    @property
+    def address(self) -> int:
+        """Where the core finds it."""
+        return ctypes.addressof(self._data)
 
     @cached_property
     def number(self) -> int:

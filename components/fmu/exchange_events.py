@@ -51,7 +51,7 @@ class StartFunction(External):
             self._states(given)
             return float(ends[0] - ends[1]) / (2 * size)
         except Exception as error:  # none passes the core
-            self.function.error = error
+            self.error = error
             return np.nan
 
     def _states(self, given: np.ndarray) -> np.ndarray:
@@ -103,6 +103,7 @@ class Event:
         else:
             raise ValueError(f"{f.path} has an event, and cannot save its state (canGetAndSetFMUstate)")
         y = get_values(f.fmu, f.dynamics.discrete_outputs)
+        f.data.wanted = 0
         kept = np.concatenate([x, y, sides, d])
         return (f.save() if f.dynamics.saves else 0.0), f.next_event, *([kept] if kept.size else [])
 
@@ -127,7 +128,8 @@ class Event:
 
     def _sides(self) -> np.ndarray:
         f = self.function
-        return np.array([float(f.at(k) > 0) for k in range(f.nx + f.ny, len(f.names))])
+        first = f.nx + f.ny
+        return np.array([float(f.at(k) > 0) for k in range(first, first + f.dynamics.indicators)])
 
     def _nudge(self, place: int, side: int) -> None:
         """Move the arguments, along the gradient of an indicator, to the side on which an event has found it.
@@ -136,7 +138,7 @@ class Event:
         """
         f = self.function
         z, at = f.at(place), f.argument[1 : 2 + f.nx + f.nu]
-        sizes = np.array([1.0, *f.nominal])
+        sizes = np.array([1.0, *(s.nominal for s in (*f.dynamics.states, *f.dynamics.inputs))])
         slope = np.array([f.at(place + len(f.names) * (2 + k)) for k in range(len(at))])
         change = np.sqrt(np.sum((slope * sizes) ** 2))
         if not (np.isfinite(change) and change > 0):

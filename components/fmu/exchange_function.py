@@ -21,11 +21,11 @@ MOST_ITERATIONS = 100  # of an event: FMUs that need more switch back and forth
 NAMES = {
     "2.0": (
         *("SetTime", "SetContinuousStates", "GetDerivatives", "GetEventIndicators"),
-        *("SetReal", "GetReal", "GetDirectionalDerivative"),
+        *("SetReal", "GetReal", "CompletedIntegratorStep", "GetDirectionalDerivative"),
     ),
     "3.0": (
         *("SetTime", "SetContinuousStates", "GetContinuousStateDerivatives", "GetEventIndicators"),
-        *("SetFloat64", "GetFloat64", "GetDirectionalDerivative"),
+        *("SetFloat64", "GetFloat64", "CompletedIntegratorStep", "GetDirectionalDerivative"),
     ),
 }
 
@@ -46,45 +46,44 @@ class ExchangeFunction(External):
         own = interface.dynamics
         assert own is not None
         self.interface, self.dynamics = interface, own
-        sizes = [
-            len(own.states),
-            *(len(part) for part in (own.inputs, own.outputs, own.discrete_inputs, interface.parameters)),
-        ]
-        self.nx, self.nu, self.ny, nd, np_ = sizes
-        self.argument = np.zeros(2 + self.nx + self.nu + nd + np_)
-        m = self.nx + self.ny + own.indicators
-        self._arrays: dict[str, Any] = {
+        self.nx, self.nu, self.ny = len(own.states), len(own.inputs), len(own.outputs)
+        self.argument = np.zeros(2 + self.nx + self.nu + len(own.discrete_inputs) + len(interface.parameters))
+        names = [f"the derivative of {s.name}" for s in own.states] + [f"the output {s.name}" for s in own.outputs]
+        names += [f"event indicator {k + 1}" for k in range(own.indicators)] + ["the wish for an event"] * own.completes
+        self.data, self._arrays = self._core_data(len(names))
+        super().__init__(os.path.basename(interface.path), names, self.data)
+        self.completes = own.completes
+        self.fmu: Any = None
+        self._begun: bytes | None = None  # parameters of the last initialization
+        self._saved, self._next, self._mode = dict[int, Any](), 0, -1
+        self.next_event = NEVER
+
+    def _core_data(self, m: int) -> tuple[FmuData, dict[str, np.ndarray]]:
+        """Return what the core takes, and arrays whose addresses it holds."""
+        own, n = self.dynamics, 1 + self.nx + self.nu
+        arrays = {
             "known_ref": np.array([s.reference for s in (*own.states, *own.inputs)], dtype=np.uint32),
             "unknown_ref": np.array([*own.derivatives, *(s.reference for s in own.outputs)], dtype=np.uint32),
             "nominal": np.array([s.nominal for s in (*own.states, *own.inputs)], dtype=float),
-            "now": np.array([0, 0, *(s.raw for s in (*own.states, *own.inputs)), *np.zeros(nd + np_)]),
+            "now": np.zeros(len(self.argument)),
             "values": np.zeros(m),
             "before": np.zeros(m),
-            "slopes": np.zeros(m * (1 + self.nx + self.nu)),
-            "known_slope": np.zeros(1 + self.nx + self.nu, dtype=np.int32),
+            "slopes": np.zeros(m * n),
+            "known_slope": np.zeros(n, dtype=np.int32),
         }
-        self.nominal = self._arrays["nominal"]
-        own_ready = weakref.WeakMethod(self._ready)  # no cycle, so that the FMU ends with its last use
-        self._prepare = PREPARE(lambda: own_ready()())  # type: ignore[misc]
-        value = ctypes.cast(loaded(runs=False).ac_fmu_value, ctypes.c_void_p).value
-        self.data = FmuData(ExternalData(MARK, len(self.argument), address(self.argument), value))
-        self.data.version = int(interface.version[0])
-        self.data.states, self.data.inputs, self.data.outputs, self.data.indicators = (
-            self.nx,
-            self.nu,
-            self.ny,
-            own.indicators,
+        arrays["now"][2 : n + 1] = [s.raw for s in (*own.states, *own.inputs)]
+        ready = weakref.WeakMethod(self._ready)  # no cycle, so that the FMU ends with its last use
+        self._prepare = PREPARE(lambda: ready()())  # type: ignore[misc]
+        value, completed = (
+            ctypes.cast(getattr(loaded(runs=False), f"ac_fmu_{what}"), ctypes.c_void_p).value
+            for what in ("value", "completed")
         )
-        self.data.prepare = self._prepare
-        for name, array in self._arrays.items():
-            setattr(self.data, name, address(array) if array.size else None)
-        names = [f"the derivative of {s.name}" for s in own.states] + [f"the output {s.name}" for s in own.outputs]
-        names += [f"event indicator {k + 1}" for k in range(own.indicators)]
-        super().__init__(os.path.basename(interface.path), names, self.data)
-        self.fmu: Any = None
-        self._saved, self._next, self._mode, self._begun = dict[int, Any](), 0, -1, b""
-        self.next_event = NEVER
-        self.error: Exception | None = None
+        data = FmuData(ExternalData(MARK, len(self.argument), address(self.argument), value, completed))
+        data.version, data.completes, data.prepare = int(self.interface.version[0]), own.completes, self._prepare
+        data.states, data.inputs, data.outputs, data.indicators = self.nx, self.nu, self.ny, own.indicators
+        for name, array in arrays.items():
+            setattr(data, name, address(array) if array.size else None)
+        return data, arrays
 
     def begin(self, time: float, u: Any, d: Any, p: Any) -> np.ndarray:
         """Initialize the FMU; return its states."""

@@ -57,6 +57,7 @@ class ModelExchange(Component):
         z = external(function, everything, range(nx + ny, nx + ny + nz))
         sides = [piecewise((1, z[k] > 0), 0) for k in range(nz)]
         moved = [(now - before) ** 2 for now, before in zip([*sides, *d], seen, strict=True)]
+        moved += [external(function, everything, [nx + ny + nz])[0]] if own.completes else []
         due = time >= self.next_event
         results = [self.mode, self.next_event, *([self.kept] if KEPT in self.fields else [])]
         act = call(Event(function), [as_expr(everything), *([as_expr(sides)] if sides else [])], results)

@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import pickle
 import re
+import subprocess
+import sys
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, connect, der, discrete, input, output, parameter, quantity, variable, when
+from acausal.core.build.compiling import SOURCE, own_compiler
 from components.blocks import Step, ZeroOrderHold
 from components.translational import Mass, Position
 
 pytest.importorskip("fmpy")
 
 from components.fmu import FMU
+
+HERE = Path(__file__).parent
 
 
 class Spring(Model):
@@ -229,6 +235,46 @@ def test_an_fmu_that_saves_no_state_has_no_events(files, tmp_path):
 
 def read(path):
     return zipfile.ZipFile(path).read("modelDescription.xml").decode()
+
+
+@pytest.fixture(scope="module")
+def counter(tmp_path_factory):
+    """An FMU that asks for its events at the ends of steps, and has discrete inputs and outputs."""
+    if not own_compiler():
+        pytest.skip("there is no C compiler")
+    folder = tmp_path_factory.mktemp("counter")
+    system = {"linux": ("linux64", "so"), "darwin": ("darwin64", "dylib"), "win32": ("win64", "dll")}[sys.platform]
+    library = folder / f"counter.{system[1]}"
+    flags = ["-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{SOURCE}"]
+    subprocess.run([*own_compiler(), *flags, str(HERE / "counter.c"), "-o", str(library)], check=True)
+    with zipfile.ZipFile(folder / "counter.fmu", "w") as file:
+        file.write(HERE / "counter.xml", "modelDescription.xml")
+        file.write(library, f"binaries/{system[0]}/{library.name}")
+    return folder / "counter.fmu"
+
+
+@pytest.mark.parametrize("method", ["rosenbrock", "idas"])
+def test_events_at_the_ends_of_steps_and_discrete_signals(counter, method):
+    class Counting(Model):
+        part = FMU(counter)
+        x: Scalar = variable("what keeps steps short", start=1, fixed=True)
+        v: Scalar = variable("its rate", unit="1/s", start=0, fixed=True)
+        total: Scalar = variable("turns")
+
+        def equations(self):
+            yield der(self.x) == self.v
+            yield der(self.v) == -quantity(1000, "1/s2") * self.x
+            yield self.part.speed == 2 + ac.sin(ac.time)
+            yield self.part.on == ac.piecewise((1, ac.time < 1.5), (0, ac.time < 2.25), 1)
+            yield self.total == self.part.x + self.part.n
+
+    result = ac.simulate(Counting(), stop_time=4, tolerance=1e-8, method=method)
+    t = result.time
+    on = np.where(t < 1.5, t, np.where(t < 2.25, 1.5, t))
+    way = 2 * on - np.cos(on) + 1 - np.where(t >= 2.25, 2 * 0.75 + np.cos(1.5) - np.cos(2.25), 0)
+    np.testing.assert_allclose(result["total"], way, atol=1e-6)
+    assert result["part.n"][-1] == np.floor(way[-1])
+    assert 1 < result["part.x"].max() < 1.3  # it falls at the end of a step, not before
 
 
 def test_copies_and_pickles(files):

@@ -1,5 +1,7 @@
-/* Functions of the caller of a run, which are called at events in the order of data flow. */
+/* Functions of the caller of a run, which are called at events in the order of data flow; and those of other libraries. */
 #include "hybrid.h"
+
+#include <math.h>
 
 void ac_run_functions(ac_instance *i, ac_function *function, double *arguments, double *results) {
     i->function = function, i->arguments = arguments, i->results = results;
@@ -35,4 +37,19 @@ int32_t ac_call_functions(ac_instance *i, const double *fires) {
         for (int32_t j = call->result; j < call->result + call->results; j++) i->c[u->switches + u->result[2 * j + 1]] = i->results[j];
     }
     return AC_OK;
+}
+
+void ac_run_externals(ac_instance *i, int32_t count, ac_external *const *external) { i->externals = count, i->external = external; }
+
+/* Tell functions of other libraries that a step without an event is accepted; an event that one asks for is at its end. */
+int32_t ac_complete_step(ac_instance *i) {
+    const double time = i->now.time;
+    int32_t wanted = 0;
+    if (!i->externals || isfinite(i->now.event)) return AC_OK;
+    ac_stand(i, i->now.to);
+    const int32_t failed = ac_know(i, AC_RATE); /* the last arguments are those of the end of the step */
+    for (int32_t k = 0; k < i->externals && !failed; k++) wanted |= i->external[k]->completed(i->external[k]);
+    ac_stand(i, time);
+    if (wanted) i->now.next = fmin(i->now.next, i->now.to);
+    return failed;
 }

@@ -1,9 +1,10 @@
 /* An FMU for Model Exchange of another tool, as a function of an event mode, time, states, inputs and parameters. Its values are the
-   derivatives of the states, outputs and event indicators; behind them stand their derivatives, column by column. */
+   derivatives of the states, outputs, event indicators, and whether it asks for an event; behind them stand their derivatives, column by column. */
 #include "core.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #define ALIKE DBL_MAX /* an argument that does not matter */
@@ -14,6 +15,8 @@ enum { DERIVATIVES = 1, OUTPUTS = 2, INDICATORS = 4, ALL = 7 };
 typedef void any(void); /* of version 2 or 3 */
 typedef int set_time(void *, double);
 typedef int numbers(void *, double *, size_t);
+typedef int completed2(void *, int, int *, int *);
+typedef int completed3(void *, bool, bool *, bool *);
 typedef int reals2(void *, const uint32_t *, size_t, double *);
 typedef int reals3(void *, const uint32_t *, size_t, double *, size_t);
 typedef int directional2(void *, const uint32_t *, size_t, const uint32_t *, size_t, const double *, double *);
@@ -22,12 +25,13 @@ typedef int directional3(void *, const uint32_t *, size_t, const uint32_t *, siz
 typedef struct {
     ac_external function;
     int32_t version, states, inputs, outputs, indicators, parameters;
+    int32_t completes, wanted;     /* whether it is told of accepted steps, and has asked for an event */
     int32_t ready, set, known;     /* whether it is in the event mode, at the arguments, and which values are those */
     int32_t (*prepare)(void);      /* bring it into the event mode, with the parameters; 0 where that fails */
     void *instance;
     set_time *set_time;
     numbers *set_states, *get_derivatives, *get_indicators;
-    any *set_real, *get_real, *directional; /* the last NULL where there is none */
+    any *set_real, *get_real, *completed, *directional; /* the last NULL where there is none */
     const uint32_t *known_ref;     /* (states + inputs) */
     const uint32_t *unknown_ref;   /* (states + outputs) derivatives and outputs */
     const double *nominal;         /* (states + inputs) */
@@ -36,7 +40,7 @@ typedef struct {
     int32_t *known_slope;          /* (1 + states + inputs) */
 } ac_fmu;
 
-static int32_t values_of(const ac_fmu *f) { return f->states + f->outputs + f->indicators; }
+static int32_t values_of(const ac_fmu *f) { return f->states + f->outputs + f->indicators + f->completes; }
 
 static int real(const ac_fmu *f, any *function, const uint32_t *reference, int32_t n, double *value) {
     if (!n) return 1;
@@ -54,6 +58,7 @@ static int put(ac_fmu *f, int32_t column) {
 /* Get values of some kinds. */
 static int get(ac_fmu *f, int32_t kinds, double *to) {
     const size_t nx = (size_t)f->states, nz = (size_t)f->indicators;
+    if (f->completes) to[values_of(f) - 1] = 0; /* changes with no argument */
     if ((kinds & DERIVATIVES) && nx && f->get_derivatives(f->instance, to, nx) > OK) return 0;
     if ((kinds & OUTPUTS) && !real(f, f->get_real, f->unknown_ref + nx, f->outputs, to + nx)) return 0;
     return !(kinds & INDICATORS) || !nz || f->get_indicators(f->instance, to + nx + f->outputs, nz) <= OK;
@@ -61,6 +66,7 @@ static int get(ac_fmu *f, int32_t kinds, double *to) {
 
 /* Know the kind of a value: outputs that depend on fewer arguments than others are asked for before these are known. */
 static int know(ac_fmu *f, int32_t number) {
+    if (f->completes && number == values_of(f) - 1) return f->values[number] = f->wanted, 1;
     const int32_t kind = number < f->states ? DERIVATIVES : number < f->states + f->outputs ? OUTPUTS : INDICATORS;
     if (!(f->known & kind) && !get(f, kind, f->values)) return 0;
     f->known |= kind;
@@ -131,4 +137,20 @@ AC_PUBLIC double ac_fmu_value(ac_external *function, int32_t number) {
     if (number < m) return know(f, number) ? f->values[number] : NAN;
     if (column < 0 || column > f->states + f->inputs) return 0; /* event mode and parameters are no variables */
     return differentiate(f, column) ? f->slopes[(size_t)column * (size_t)m + (size_t)(number % m)] : NAN;
+}
+
+/* Tell it that the step to its arguments is accepted; return whether it asks for an event, which the last value tells from then on. */
+AC_PUBLIC int32_t ac_fmu_completed(ac_external *function) {
+    ac_fmu *f = (ac_fmu *)function;
+    if (f->version == 2) {
+        int event = 0, end = 0;
+        if (((completed2 *)f->completed)(f->instance, 1, &event, &end) > OK) f->ready = 0;
+        f->wanted = event || end;
+    } else {
+        bool event = 0, end = 0;
+        if (((completed3 *)f->completed)(f->instance, 1, &event, &end) > OK) f->ready = 0;
+        f->wanted = event || end;
+    }
+    f->known = 0;
+    return f->wanted;
 }

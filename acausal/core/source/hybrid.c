@@ -170,6 +170,7 @@ static int32_t step(ac_instance *i, double to, double *left) {
     if (i->recorder) ac_hold(i);
     if (!failed) failed = advance(i, left);
     if (!failed) failed = check(i);
+    if (!failed && i->now.looked) failed = ac_complete_step(i);
     return failed && failed != AC_PAUSE && failed != AC_EXCHANGE && is_due(i) ? AC_OK : failed;
 }
 

@@ -57,6 +57,8 @@ AC_PUBLIC int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_st
 AC_PUBLIC int32_t ac_run_happen(ac_instance *i, const double *c, const double *fires, const double *crossed, double *acts, int32_t *why);
 /* The function that is called at events, and arrays of the arguments and results of all calls; before a run. */
 AC_PUBLIC void ac_run_functions(ac_instance *i, ac_function *function, double *arguments, double *results);
+/* Functions of other libraries that are told of accepted steps; before a run. */
+AC_PUBLIC void ac_run_externals(ac_instance *i, int32_t count, ac_external *const *external);
 /* Values at the present: states, algebraic unknowns, constants, conditions that hold, indicators that change now. */
 AC_PUBLIC void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *crossed);
 /* The time at which a condition has no value, with states and algebraic unknowns there. */
@@ -67,6 +69,7 @@ AC_PUBLIC void ac_redundant_laws(const ac_instance *i, double *redundant);
 
 int ac_creeps(ac_instance *i, const ac_progress *done);
 int32_t ac_meet_flat(ac_instance *i, double *shorter);
+int32_t ac_complete_step(ac_instance *i);
 int ac_is_full(const ac_instance *i);
 void ac_record_event(ac_instance *i, int32_t changed); /* and stand there; a row where anything changed */
 void ac_hold(ac_instance *i);           /* the present is what a run goes back to */

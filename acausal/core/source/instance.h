@@ -198,6 +198,8 @@ struct ac_instance {
     ac_clock clock;                         /* of an instant of a run */
     ac_function *function;                  /* of the caller of a run */
     double *arguments, *results;            /* of all its calls */
+    ac_external *const *external;           /* (externals) functions of other libraries that are told of accepted steps */
+    int32_t externals;
     double *acts;                           /* (watched + timed) conditions that changed in an event iteration: those to blame where it fails */
     int32_t why;                            /* reason of the last failure */
     double *step_y, step_time;              /* a step as the integrator writes it */

@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.full_residuals import EQUATION, Row
+from acausal.language.external import External
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.probe import Probe, decisive_zeros, zeros_text
 from acausal.solve.diagnosis.singularity import dependent_equations
@@ -76,7 +77,7 @@ def undefined_equations(
     rows = [row for row in probe.failing() if row.kind in kinds]
     if not rows:
         return ""
-    if broken := _broken(problem, probe):
+    if broken := _broken(problem, probe) or _refused(problem):
         return broken
     found = [(row, *operation(row, probe)) for row in rows]
     lines = list(dict.fromkeys(_line(row, text) for row, text, _ in found))[: CAUSES.shown]
@@ -109,6 +110,13 @@ def _broken(problem: Problem, probe: Probe) -> str:
         if text := requirement.broken(own):
             return f"{origin}: {text}."
     return ""
+
+
+def _refused(problem: Problem) -> str:
+    """Return what functions of other libraries raised, "" if none did."""
+    tables = problem.compiled.reduced.flat.parameters.tables.values()
+    failed = [own for own in tables if isinstance(own, External) and own.error]
+    return "\n".join(f"{own.path} gives no value: {own.error}" for own in failed)
 
 
 def parameter_remedy(problem: Problem, probe: Probe, rows: list[Row], operand: Any) -> str:

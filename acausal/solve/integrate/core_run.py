@@ -9,6 +9,7 @@ from acausal.compiler.memo import memoized
 from acausal.compiler.runtime import INNER, NOTHING, VERSION, Runtime
 from acausal.core import Run, StoredModel
 from acausal.core.model_file import floats, framed, ints
+from acausal.language.external import External
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
 from acausal.solve.initialization.independent_constraints import closure_of
@@ -109,4 +110,7 @@ def make_run(
     run = Run(framed(VERSION, sections), numbers, room)
     if functions:
         run.calls(functions, functions.arguments, functions.results)
+    tables = compiled.reduced.flat.parameters.tables.values()
+    if told := [own.address for own in tables if isinstance(own, External) and own.completes]:
+        run.tell_steps(told)
     return run
