@@ -34,6 +34,7 @@ class ExternalData(ctypes.Structure):
         ("argument", ctypes.c_void_p),
         ("value", ctypes.c_void_p),
         ("completed", ctypes.c_void_p),
+        ("parts", ctypes.c_int32),
     )
 
 

@@ -49,6 +49,10 @@ class External:
         """Where the core finds it."""
         return ctypes.addressof(self._data)
 
+    def next_kink(self, arguments: ca.SX, places: Sequence[int]) -> ca.SX | None:
+        """Return the next time in s, after that among the arguments, at which these values have a kink; None for none."""
+        return None
+
     @cached_property
     def number(self) -> int:
         """Number of the function in this process, as long as it lasts."""
@@ -79,5 +83,8 @@ def external(function: External, arguments: Sequence[Any], places: Sequence[int]
     if not isinstance(function, External):
         raise DeclarationError(f"external() needs a function of another library, not {function!r}.")
     given = stacked([ca.SX(ANY) if a is None else as_expr(a).sx for a in arguments])
-    number = PENDING.get().table(function)
+    pending = PENDING.get()
+    number = pending.table(function)
+    if (kink := function.next_kink(given, places)) is not None:
+        pending.kinks.append((number, kink))
     return Expr(values_of(number, given, places, len(function.names)), shape=(len(places),))

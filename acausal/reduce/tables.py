@@ -11,8 +11,8 @@ from acausal.language.external import External
 from acausal.structure import Plan
 from acausal.symbols import picked, scalars, stacked
 
-# Continuous derivatives of an interpolant by its kind; of the others one.
-CONTINUOUS = {"constant": -1, "linear": 0, "cubic": 2}
+# Continuous derivatives of an interpolant by its kind; of the others one. A delay has a kink where the last step ends.
+CONTINUOUS = {"constant": -1, "linear": 0, "delay": 0, "cubic": 2}
 
 
 def table_kinks(flat: FlatModel, plan: Plan) -> ca.SX:

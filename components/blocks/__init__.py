@@ -26,6 +26,7 @@ from components.blocks.exp_sine import ExpSine
 from components.blocks.feedback import Feedback
 from components.blocks.first_order import FirstOrder
 from components.blocks.first_order_hold import FirstOrderHold
+from components.blocks.fixed_delay import FixedDelay
 from components.blocks.gain import Gain
 from components.blocks.greater import Greater
 from components.blocks.greater_equal_threshold import GreaterEqualThreshold
@@ -113,6 +114,7 @@ __all__ = [
     "Feedback",
     "FirstOrder",
     "FirstOrderHold",
+    "FixedDelay",
     "Gain",
     "Greater",
     "GreaterEqualThreshold",

@@ -75,6 +75,7 @@ EXTRAS = {
 # Files of components that read and write files, or are a command, as the engine does.
 FILES = {"acausal.result", "acausal.result.files"}
 INSIDE = {
+    "components/blocks/fixed_delay.py": {"acausal.language.history"},
     "components/fmu/signals.py": {"acausal.units"},
     "components/fmu/exchange_events.py": {"acausal.core.externals", "acausal.core.library"},
     "components/fmu/exchange_function.py": {"acausal.core.externals", "acausal.core.library"},

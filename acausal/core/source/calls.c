@@ -41,15 +41,37 @@ int32_t ac_call_functions(ac_instance *i, const double *fires) {
 
 void ac_run_externals(ac_instance *i, int32_t count, ac_external *const *external) { i->externals = count, i->external = external; }
 
-/* Tell functions of other libraries that a step without an event is accepted; an event that one asks for is at its end. */
+/* Tell functions of other libraries where the run stands; return whether one asks for an event. */
+static int32_t tell(ac_instance *i, int32_t part, int32_t parts, int32_t *wanted) {
+    const int32_t failed = ac_know(i, AC_RATE); /* their last arguments are those of the present */
+    for (int32_t k = 0; k < i->externals && !failed; k++) {
+        if (part == parts || i->external[k]->parts == parts) *wanted |= i->external[k]->completed(i->external[k], part);
+    }
+    return failed;
+}
+
+/* Tell them of an accepted step, up to an event in it, part by part; an event that one asks for is at its end. */
 int32_t ac_complete_step(ac_instance *i) {
-    const double time = i->now.time;
-    int32_t wanted = 0;
-    if (!i->externals || isfinite(i->now.event)) return AC_OK;
-    ac_stand(i, i->now.to);
-    const int32_t failed = ac_know(i, AC_RATE); /* the last arguments are those of the end of the step */
-    for (int32_t k = 0; k < i->externals && !failed; k++) wanted |= i->external[k]->completed(i->external[k]);
+    const double time = i->now.time, end = fmin(i->now.event, i->now.to);
+    int32_t wanted = 0, parts = 1, failed = AC_OK;
+    if (!i->externals) return AC_OK;
+    for (int32_t k = 0; k < i->externals; k++) parts = i->external[k]->parts > parts ? i->external[k]->parts : parts;
+    for (int32_t part = 1; part <= parts && !failed; part++) {
+        ac_stand(i, part < parts ? i->now.from + part * (end - i->now.from) / parts : end);
+        failed = tell(i, part, parts, &wanted);
+    }
     ac_stand(i, time);
-    if (wanted) i->now.next = fmin(i->now.next, i->now.to);
+    if (wanted) i->now.next = fmin(i->now.next, end);
+    return failed;
+}
+
+/* Tell those that follow the step part by part of what has changed at an event. */
+int32_t ac_complete_event(ac_instance *i) {
+    if (i->externals) ac_moved(i);
+    int32_t failed = i->externals ? ac_know(i, AC_RATE) : AC_OK;
+    for (int32_t k = 0; k < i->externals && !failed; k++) {
+        if (i->external[k]->parts > 1) (void)i->external[k]->completed(i->external[k], 0);
+    }
+    if (i->externals) ac_changed(i); /* what follows from constants alone may follow from what they keep, too */
     return failed;
 }

@@ -50,7 +50,8 @@ struct ac_external {
     int32_t arguments;
     double *argument;                                      /* (arguments) DBL_MAX where any will do */
     double (*value)(ac_external *own, int32_t number);     /* one of its values, or of their derivatives */
-    int32_t (*completed)(ac_external *own);                /* told of each accepted step: whether it asks for an event; or NULL */
+    int32_t (*completed)(ac_external *own, int32_t part);  /* told of each accepted step: whether it asks for an event; or NULL */
+    int32_t parts;                                         /* of a step, of which it is told one by one, then of events as part 0 */
 };
 
 /* A list of operations on an array w: constants, inputs, then the results in their order.
@@ -66,7 +67,10 @@ typedef struct {
 
 AC_PUBLIC void ac_casadi_call_rows(int32_t rows);                     /* of what CasADi gives to `ac_casadi_call` */
 AC_PUBLIC double ac_fmu_value(ac_external *function, int32_t number); /* of an FMU for Model Exchange, see `exchanged_fmu.c` */
-AC_PUBLIC int32_t ac_fmu_completed(ac_external *function);
+AC_PUBLIC int32_t ac_fmu_completed(ac_external *function, int32_t part);
+AC_PUBLIC ac_external *ac_history_make(void);                         /* see `history.c` */
+AC_PUBLIC int32_t ac_history_begin(ac_external *function, double time, double signal);
+AC_PUBLIC void ac_history_free(ac_external *function);
 double ac_external_value(const ac_tape *tape, const double *w, int32_t last, double value);
 size_t ac_tape_length(const ac_tape *tape); /* of w, and one more: never 0 */
 AC_PUBLIC void ac_tape_run(const ac_tape *tape, double *w, int32_t from, int32_t to);

@@ -265,7 +265,7 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         if (failed && r.flips && i->search.cycle) ac_restore(i, i->round), failed = AC_OK, i->why = 0;
     }
     if (round == AC_MODES) failed = ac_refuse(i, AC_UNSETTLED, UNSETTLED_TEXT);
-    if (failed) return AC_FAILED;
+    if (failed || ac_complete_event(i)) return AC_FAILED;
     double between;
     for (int32_t k = 0; k < u->watched; k++) i->crossed[k] = 0;
     i->now.first = 0;

@@ -140,7 +140,8 @@ AC_PUBLIC double ac_fmu_value(ac_external *function, int32_t number) {
 }
 
 /* Tell it that the step to its arguments is accepted; return whether it asks for an event, which the last value tells from then on. */
-AC_PUBLIC int32_t ac_fmu_completed(ac_external *function) {
+AC_PUBLIC int32_t ac_fmu_completed(ac_external *function, int32_t part) {
+    (void)part;
     ac_fmu *f = (ac_fmu *)function;
     if (f->version == 2) {
         int event = 0, end = 0;

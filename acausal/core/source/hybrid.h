@@ -69,7 +69,6 @@ AC_PUBLIC void ac_redundant_laws(const ac_instance *i, double *redundant);
 
 int ac_creeps(ac_instance *i, const ac_progress *done);
 int32_t ac_meet_flat(ac_instance *i, double *shorter);
-int32_t ac_complete_step(ac_instance *i);
 int ac_is_full(const ac_instance *i);
 void ac_record_event(ac_instance *i, int32_t changed); /* and stand there; a row where anything changed */
 void ac_hold(ac_instance *i);           /* the present is what a run goes back to */

@@ -249,6 +249,8 @@ int32_t ac_initial(ac_instance *i);
 int32_t ac_limits(ac_instance *i, int at_start);                /* what is broken: of parameters, or of variables at the start */
 int32_t ac_happen(ac_instance *i, ac_happened *found);
 int32_t ac_call_functions(ac_instance *i, const double *fires); /* before anything jumps */
+int32_t ac_complete_step(ac_instance *i);
+int32_t ac_complete_event(ac_instance *i);
 void ac_renew_inputs(ac_instance *i);
 double ac_near(const ac_instance *i);                           /* times that near are one */
 double ac_next_instant(ac_instance *i, double *between);
