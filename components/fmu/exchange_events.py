@@ -43,7 +43,8 @@ class StartFunction(External):
             column, k = divmod(place, self.function.nx)
             given = self.argument.copy()
             if not column:
-                return float(self._states(given)[k])
+                found, self.error = float(self._states(given)[k]), None
+                return found
             if not 1 <= column - 1 <= self.function.nu:
                 return 0.0
             size = STEP * max(1.0, abs(given[column - 1]))

@@ -33,8 +33,9 @@ NAMES = {
 class ExchangeFunction(External):
     """Function of an event mode, time, states, inputs, discrete inputs and parameters.
 
-    Its values are the derivatives of the states, the continuous outputs, and the event indicators. An event mode is the number of
-    a state of the FMU that was saved; -1 is that after its initialization, 0 the only one of an FMU that saves none.
+    Its values are the derivatives of the states, the continuous outputs, the event indicators, and, of an FMU that is told of
+    steps, whether it asks for an event. An event mode is the number of a state of the FMU that was saved; -1 is that after its
+    initialization, 0 the only one of an FMU that saves none.
 
     Parameters
     ----------
@@ -96,6 +97,7 @@ class ExchangeFunction(External):
         if self.dynamics.saves:
             self._keep(-1)
         self._begun, self._mode, self.data.ready = bytes(np.asarray(p, dtype=float)), -1, 0
+        self.error = None
         return self.states()
 
     def states(self) -> np.ndarray:

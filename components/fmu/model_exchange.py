@@ -13,9 +13,7 @@ from components.fmu.exchange_function import ExchangeFunction
 from components.fmu.interface import Interface
 
 KEPT = "kept"
-CHANGED = (
-    1e-12  # sum of the squares by which sides and discrete inputs differ from those at the last event: 0 or 1 and more
-)
+CHANGED = 1e-12  # sum of the squares of changes of sides and discrete inputs since the last event: 0, or 1 and more
 
 
 class ModelExchange(Component):
