@@ -25,7 +25,7 @@ from acausal.units import DIMENSIONLESS
 
 
 @checked_call
-def table(x: Any, data: Any) -> Any:
+def table(x: Any, data: Any, *, events: bool = False) -> Any:
     """Return the interpolated values of a table.
 
     Where the argument is linear in time, steps end at the points of a "linear" table, and jumps are time events. Elsewhere
@@ -37,6 +37,8 @@ def table(x: Any, data: Any) -> Any:
         Scalar argument, one for each abscissa of the table.
     data : Table
         The points: a field `structural("...", cls=Table)`, whose numbers can be changed after compiling, or a table itself.
+    events : bool
+        True for an event at each point that an argument passes which is not linear in time.
 
     Returns
     -------
@@ -54,11 +56,11 @@ def table(x: Any, data: Any) -> Any:
     """
     arguments = x if isinstance(x, tuple | list) else (x,)
     if is_deferred(*arguments, data) or PENDING.get(None) is None:
-        return Deferred(partial(_table, len(arguments)), (*arguments, data))
-    return _table(len(arguments), *arguments, data)
+        return Deferred(partial(_table, len(arguments), bool(events)), (*arguments, data))
+    return _table(len(arguments), bool(events), *arguments, data)
 
 
-def _table(n: int, *given: Any) -> Expr:
+def _table(n: int, events: bool, *given: Any) -> Expr:
     data, arguments = given[n], [as_expr(x) for x in given[:n]]
     if not isinstance(data, Table):
         raise DeclarationError(f"table() needs a Table, as in table(self.s, Table([0, 1], [0, 2])), not {shown(data)}.")
@@ -67,7 +69,7 @@ def _table(n: int, *given: Any) -> Expr:
             f"this table takes {len(data.axes)} scalar argument{'s' * (len(data.axes) > 1)}; "
             f"table() has {n}{' of another shape' if len(data.axes) == n else ''}."
         )
-    lookup = _Lookup(PENDING.get(), data)
+    lookup = _Lookup(PENDING.get(), data, events)
     rows, local = zip(*(lookup.row(k, x.sx) for k, x in enumerate(arguments)), strict=True)
     if n == 2:
         cell = rows[0] * load(ca.SX(2), lookup.number + 5) + rows[1]
@@ -86,10 +88,12 @@ class _Lookup:
         Requests of the equations.
     data : Table
         The table.
+    events : bool
+        Whether its points are events.
     """
 
-    def __init__(self, pending: Pending, data: Table) -> None:
-        self.pending, self.data, self.number = pending, data, pending.table(data)
+    def __init__(self, pending: Pending, data: Table, events: bool) -> None:
+        self.pending, self.data, self.number, self.events = pending, data, pending.table(data), events
 
     def row(self, axis: int, x: ca.SX) -> tuple[ca.SX, ca.SX]:
         """Return the row of the coefficients, and the argument of the polynomials."""
@@ -108,11 +112,27 @@ class _Lookup:
         return _horner([load(row, first + power) for power in range(4)], u)
 
     def _found(self, first: ca.SX, x: ca.SX, rate: ca.SX | None) -> ca.SX:
+        if self.events and rate is None:
+            return self._watched(first, x)
         row = find(x, first)
         if rate is not None and self.data.kind != "constant":
             after = load(ca.if_else(rate > 0, row, row - 1), first)
             self.pending.kinks.append((self.number, time.sx + (after - x) / rate))
         return row
+
+    def _watched(self, first: ca.SX, x: ca.SX) -> ca.SX:
+        """Return the row as a discrete variable, which changes where the argument passes a point."""
+        row = Expr(ca.SX.sym(f"{self.number.name()} row"), DIMENSIONLESS)
+        above, below = load(row.sx, first), load(row.sx - 1, first)
+        above, below = ca.if_else(above <= NEVER, above, NEVER), ca.if_else(below >= -NEVER, below, -NEVER)
+        rises = When(
+            Condition(Expr(above - x), "<="), (Reinit(row, Expr(ca.fmax(row.sx + 1, find(x, first)))),), at_start=False
+        )
+        falls = When(
+            Condition(Expr(x - below), "<"), (Reinit(row, Expr(ca.fmin(row.sx - 1, find(x, first)))),), at_start=False
+        )
+        self.pending.remember([row], [find(x, first)], rises, falls)
+        return row.sx
 
     def _row_of_piece(self, x: ca.SX, rate: ca.SX | None) -> tuple[ca.SX, ca.SX]:
         """Return the same of a table with jumps: a discrete variable counts its pieces, another one its periods."""

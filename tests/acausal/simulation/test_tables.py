@@ -244,3 +244,34 @@ def test_an_open_dae_has_tables(tmp_path):
     for parameters in ({}, {"data": other}):
         a, b = (ac.simulate(c, parameters=parameters)["s"] for c in (compiled, loaded))
         np.testing.assert_array_equal(a, b)
+
+
+class Watched(Model):
+    """An argument that swings to and fro over a table, and jumps once."""
+
+    rule: Table = structural("table", cls=Table)
+    events: bool = structural("whether its points are events", default=True)
+    x: Scalar = variable("argument", start=0.9, fixed=True)
+    v: Scalar = variable("its rate", unit="1/s", start=0, fixed=True)
+    y: Scalar = output("value")
+    jumped: Scalar = ac.discrete("whether it has jumped", start=0)
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield ac.quantity(1, "s2") * der(self.v) == -10 * self.y
+        yield self.y == table(self.x, self.rule, events=self.events)
+        yield ac.when(now >= 1, ac.reinit(self.x, self.x - 0.5), ac.reinit(self.jumped, 1))
+
+
+@pytest.mark.parametrize("extrapolation", ["linear", "periodic"])
+def test_points_are_events_on_request(extrapolation):
+    x = np.linspace(-1, 1, 9) if extrapolation == "linear" else np.linspace(-0.3, 0.7, 5)
+    rule = Table(x, np.sin(3 * x) if extrapolation == "linear" else [0, 0.5, 0.2, -0.7, 0], extrapolation=extrapolation)
+    found, plain = (ac.simulate(Watched(rule=rule, events=e), stop_time=2, tolerance=1e-7) for e in (True, False))
+    exact = ac.simulate(Watched(rule=rule), stop_time=2, tolerance=1e-11)
+    np.testing.assert_allclose(found["y"], rule(found["x"]), atol=1e-9)
+    np.testing.assert_allclose(found["x"], exact["x"], atol=3e-6)
+    np.testing.assert_allclose(plain["x"], exact["x"], atol=1e-3)
+    at = np.array([np.interp(t, exact.time, exact["x"]) for t in exact.stats["event_times"]])
+    if extrapolation == "linear":
+        np.testing.assert_allclose(at, x[-2:-9:-1], atol=1e-2)
