@@ -19,6 +19,7 @@ class CriticalDamping(SISO):
     normalized: bool = structural(
         "whether the gain at f is -3 dB, else all poles are at f", default=True, choices=(True, False)
     )
+    x_start: Any = parameter("initial outputs of the lags", shape=lambda s: (s.n,), default=lambda s: np.zeros(s.n))
     x: Any = variable("outputs of the n lags", shape=lambda s: (s.n,))
 
     def equations(self):
@@ -29,4 +30,4 @@ class CriticalDamping(SISO):
         yield self.y == self.x[self.n - 1]
 
     def initial_equations(self):
-        yield self.x == np.zeros(self.n)
+        yield self.x == self.x_start

@@ -16,6 +16,11 @@ class LowpassButterworth(SISO):
 
     n: int = structural("order", default=2, minimum=1)
     f: Scalar = parameter("cut-off frequency, where the gain is -3 dB", unit="Hz", default=1, positive=True)
+    x1_start: Any = parameter(
+        "initial outputs of the sections", shape=lambda s: (s.n // 2,), default=lambda s: np.zeros(s.n // 2)
+    )
+    x2_start: Any = parameter("initial derivatives", shape=lambda s: (s.n // 2,), default=lambda s: np.zeros(s.n // 2))
+    xr_start: Scalar = parameter("initial output of the section of order 1", default=0)
     x1: Any = variable("outputs of the sections of order 2", shape=lambda s: (max(1, s.n // 2),))
     x2: Any = variable("their derivatives over the cut-off frequency", shape=lambda s: (max(1, s.n // 2),))
     xr: Scalar = variable("output of the section of order 1, for odd n")
@@ -39,7 +44,7 @@ class LowpassButterworth(SISO):
 
     def initial_equations(self):
         if self.n % 2:
-            yield self.xr == 0
+            yield self.xr == self.xr_start
         if self.n > 1:
-            yield self.x1 == np.zeros(self.n // 2)
-            yield self.x2 == np.zeros(self.n // 2)
+            yield self.x1 == self.x1_start
+            yield self.x2 == self.x2_start

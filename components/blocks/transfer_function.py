@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import DeclarationError, der, structural, variable
+from acausal import DeclarationError, der, parameter, structural, variable
 from components.blocks.siso import SISO
 
 
@@ -15,6 +15,7 @@ class TransferFunction(SISO):
 
     b: tuple = structural("coefficients of the numerator, the highest power first", default=(1,), shape=None)
     a: tuple = structural("coefficients of the denominator, the highest power first", default=(1,))
+    x_start: Any = parameter("initial state", shape=lambda s: (len(s.a) - 1,), default=lambda s: np.zeros(len(s.a) - 1))
     x: Any = variable("state", shape=lambda s: (max(1, len(s.a) - 1),))
 
     def check(self):
@@ -39,4 +40,4 @@ class TransferFunction(SISO):
 
     def initial_equations(self):
         if len(self.a) > 1:
-            yield self.x == np.zeros(len(self.a) - 1)
+            yield self.x == self.x_start
