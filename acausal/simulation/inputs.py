@@ -9,11 +9,12 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel, checked_values
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, UnitsError
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.driven import Driven
 from acausal.language.expression import Expr
+from acausal.language.quantities import plain
 from acausal.language.table import Table
 from acausal.language.value_checks import shown
 from acausal.nearest import suggestions
@@ -91,8 +92,8 @@ def _law(name: str, value: Any, declared: f.Variable, extrapolation: str, ends: 
         return Driven(value)
     try:
         found = _table(value, declared, extrapolation)
-    except DeclarationError as error:
-        raise DeclarationError(f"input `{name}`: {error}") from None
+    except (DeclarationError, UnitsError) as error:
+        raise type(error)(f"input `{name}`: {error}") from None
     if found is None:
         raise DeclarationError(
             f"input `{name}` is {shown(value)}; it takes (times, values), a Table, a pandas Series or a function of time; a "
@@ -126,9 +127,9 @@ def _kind(values: Any) -> str:
 
 
 def _plain(values: Any, unit: str | None) -> Any:
-    """Return numbers without their unit, which must be that of the input."""
+    """Return numbers without their unit, which must be that of the input, or for a quantity of its dimension."""
     if not isinstance(values, Expr):
-        return values
+        return plain(values, None if unit is None else parse(unit), "its column of data")
     if not values.sx.is_constant():
         raise DeclarationError("its data are an expression; give numbers.")
     if unit is not None and values.unit is not None and values.unit != parse(unit):

@@ -150,3 +150,12 @@ def test_study_and_accuracy_have_inputs():
     assert result["y"][-1] == pytest.approx(exact(line), abs=2e-4)
     study = ac.study(Quarter(), inputs={"road": (T, U)}, tolerances=(1e-4,), repeats=1, workers=1)
     assert study.rows[0].error < 1e-3
+
+
+def test_quantities_of_other_packages():
+    units = pytest.importorskip("pint").UnitRegistry()
+    data = (1000 * T * units.ms, 100 * np.array(U) * units.cm)
+    result = ac.simulate(Quarter(), inputs={"road": data}, parameters={"force": 2.0}, tolerance=1e-8)
+    np.testing.assert_allclose(result["y"][-1], exact(line), atol=1e-6)
+    with pytest.raises(ac.UnitsError, match=r"input `road`.*cannot be converted to m"):
+        ac.simulate(Quarter(), inputs={"road": (T, U * units.kg)})
