@@ -13,6 +13,7 @@ from acausal.flatten.component_tree import walk
 from acausal.flatten.flat_model import FlatClosure, FlatUnknowns
 from acausal.language import fields as f
 from acausal.reduce import ReducedModel
+from acausal.reduce.tables import bent_tables
 from acausal.symbols import dense, scalars, vec
 
 SHOWN = 12
@@ -69,6 +70,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
         "operations": int(local.n_instructions()),
         "structural_zeros": list(flat.parameters.structural_zeros),
         "algebraic_loops": algebraic_loops(reduced),
+        "bent_tables": bent_tables(flat, reduced.plan),
         "loops": loops_at(reduced, found),
         "redundant_constraints": [str(o) for o in flat.equations.redundant if o.kind.startswith("connection of")],
         "redundant_in_parts": parts_at(reduced, found),
@@ -94,6 +96,10 @@ def summary(r: Mapping[str, Any]) -> str:
         f"  algebraic     {_list(r['algebraic'])}",
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
+    if r["bent_tables"]:
+        lines.append(
+            f'  tables        {_list(r["bent_tables"])}: accelerations jump at their points; not with kind="cubic"'
+        )
     lines += [f"  signal loop   {_list(names)}: solved together" for names in r["algebraic_loops"]]
     lines += [f"  {loop['kind']:14}{_loop_text(loop)}" for loop in r["loops"]]
     if r["redundant_in_parts"]:

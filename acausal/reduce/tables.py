@@ -41,6 +41,15 @@ def table_kinks(flat: FlatModel, plan: Plan) -> ca.SX:
     return stacked([t for place, t in found if kinds[place] <= max(0, highest.get(place, (0, 0))[0] - 1)])
 
 
+def bent_tables(flat: FlatModel, plan: Plan) -> list[str]:
+    """Return the tables whose second derivative the equations hold, and which has jumps, at the points."""
+    own, found = flat.parameters, dict[str, None]()
+    for place, (order, _) in (_highest(flat, plan) if own.tables else {}).items():
+        if order > 1 and CONTINUOUS.get(own.tables[place].kind, 1) == 1:
+            found[own.tables[place].path or own.names[place]] = None
+    return list(found)
+
+
 def _refuse_external(flat: FlatModel, highest: dict[int, tuple[int, int]]) -> None:
     """Raise DeclarationError if the derivative of a value of another library is needed."""
     own = flat.parameters

@@ -106,6 +106,11 @@ class Prescribed(Model):
         yield der(self.v) == self.a
 
 
+def test_jumps_of_accelerations_are_told():
+    for kind, is_told in (("akima", True), ("cubic", False)):
+        assert ("data: accelerations jump" in ac.compile(Prescribed(data=Table(X, Y, kind))).summary()) == is_told
+
+
 def test_a_line_has_no_second_derivative():
     with pytest.raises(DeclarationError, match=r'second derivative of `data` is needed, a linear table.*kind="akima"'):
         ac.compile(Prescribed(data=Table([0, 1, 2], [0, 1, 3])))
