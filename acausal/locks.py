@@ -57,14 +57,14 @@ def exclusive(function: Callable[P, R]) -> Callable[P, R]:
     return call
 
 
-def unlocked(function: Callable[[], R]) -> R:
-    """Call a function that shares no state while the lock is released; interrupts are deferred, see `Signals.waiting`.
+def unlocked(function: Callable[[], R], shares: bool = False) -> R:
+    """Call a function while the lock is released, unless it shares state; interrupts are deferred, see `Signals.waiting`.
 
     In a nested exclusive call the lock stays held: the outer call may be in the middle of an evaluation, or have
     changed state of the process.
     """
     with Signals.waiting():
-        if _THREAD.depth != 1:
+        if shares or _THREAD.depth != 1:
             return function()
         LOCK.release()
         try:

@@ -152,6 +152,7 @@ class Run:
 
     def __init__(self, content: bytes, sizes: tuple[int, int, int, int, int], room: int) -> None:
         self._library, self._sizes, self._unit, self._memory = loaded(), sizes, None, None
+        self.shares = False  # functions of other libraries with other runs, which then wait
         why = c_int32()
         self._unit = self._library.ac_unit_read(content, len(content), byref(why))
         if not self._unit:
@@ -249,7 +250,7 @@ class Run:
             *map(address, (*self._rows, self._events)),
         )
         call = self._library.ac_run_go
-        back = Back(unlocked(lambda: call(self._memory, byref(request), byref(self.state))))
+        back = Back(unlocked(lambda: call(self._memory, byref(request), byref(self.state)), self.shares))
         n, m = self.state.rows, self.state.events
         times, x, z, c, work = (rows[:n].copy() for rows in self._rows)
         return Rows(back, times[:, 0], x, z, c, work, self._events[:m].copy())

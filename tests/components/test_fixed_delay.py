@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -82,6 +84,17 @@ def test_jumps_come_back_after_each_delay(method):
     np.testing.assert_allclose(result.stats["event_times"], [0.8, 1.1, 1.4, 1.7, 2.0], atol=1e-12)
     echoes = np.floor((result.time - 0.5 + 1e-9) / 0.3) + 1
     np.testing.assert_allclose(result["delay.u"], np.where(echoes > 0, (1 - (-0.5) ** echoes) / 1.5, 0), atol=1e-12)
+
+
+def test_runs_of_threads_do_not_mix():
+    model = ac.compile(sine(1))
+
+    def run(T):
+        result = ac.simulate(model, stop_time=20, intervals=50, tolerance=1e-8, parameters={"delay.delay_time": T})
+        return np.abs(result["delay.y"] - np.where(result.time < T, 0, np.sin(2 * np.pi * (result.time - T)))).max()
+
+    with ThreadPoolExecutor(4) as threads:
+        assert max(threads.map(run, np.linspace(0.2, 0.6, 12))) < 1e-6
 
 
 class Relay(Model):

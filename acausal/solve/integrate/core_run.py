@@ -110,7 +110,7 @@ def make_run(
     run = Run(framed(VERSION, sections), numbers, room)
     if functions:
         run.calls(functions, functions.arguments, functions.results)
-    tables = compiled.reduced.flat.parameters.tables.values()
-    if told := [own.address for own in tables if isinstance(own, External) and own.completes]:
-        run.tell_steps(told)
+    externals = [own for own in compiled.reduced.flat.parameters.tables.values() if isinstance(own, External)]
+    run.shares = bool(externals)
+    run.tell_steps([own.address for own in externals if own.completes])
     return run
