@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.full_residuals import EQUATION, Row
+from acausal.instructions import EXTERNAL
 from acausal.language.external import External
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.probe import Probe, decisive_zeros, zeros_text
@@ -21,6 +22,7 @@ from acausal.symbols import scalars
 
 CAUSES = POLICY.causes
 RANGE = ", which must lie between -1 and 1"
+NO_VALUE = "asks {} for a value that it does not have"
 BEYOND = "looks up {} in a table that ends before, and refuses to extrapolate"
 WORDS = {
     ca.OP_DIV: "divides by {}",
@@ -158,6 +160,8 @@ def operation(row: Row, probe: Probe) -> tuple[str, Any]:
         value, *inner = function(*probe.arguments)[0].tolist()
         if np.isfinite(value) or not parts or not np.all(np.isfinite(inner)):
             continue
+        if node.is_output() and node.dep(0).which_function().name().startswith(EXTERNAL):
+            return NO_VALUE.format(node.dep(0).dep(0)), row.expression
         divides = node.op() in (ca.OP_DIV, ca.OP_INV)
         operand = parts[-1 if divides else 0]
         words = BEYOND if node.is_output() else WORDS.get(node.op())

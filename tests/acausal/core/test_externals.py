@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
+import acausal as ac
 from acausal.core.externals import MARK, VALUE, ExternalData, values_of
 from acausal.core.library import address
 from acausal.core.tape import make_tape
@@ -68,3 +69,31 @@ def test_a_function_that_is_gone_has_no_value():
     del product
     gc.collect()
     assert np.all(np.isnan(tape.rows(np.ones(3), np.ones(3))))
+
+
+class Part(External):
+    """The identity, which has no value above 0.5."""
+
+    def __init__(self):
+        self.argument = np.zeros(1)
+        self._value = VALUE(lambda own, place: np.nan if self.argument[0] > 0.5 else [self.argument[0], 1.0][place])
+        address_of = ctypes.cast(self._value, ctypes.c_void_p).value
+        super().__init__("supplier.so", ("value",), ExternalData(MARK, 1, address(self.argument), address_of))
+
+
+class Growing(ac.Model):
+    x: ac.Scalar = ac.variable("state", start=0, fixed=True)
+    part: Part = ac.structural("function", cls=Part)
+
+    def equations(self):
+        yield ac.quantity(1, "s") * ac.der(self.x) == 1 + ac.external(self.part, [self.x], [0])[0]
+
+
+def test_where_a_function_has_no_value_it_is_named():
+    model = Growing(part=Part())
+    result = ac.simulate(model, stop_time=0.4, tolerance=1e-9)
+    np.testing.assert_allclose(result["x"], np.expm1(result.time), atol=1e-8)
+    with pytest.raises(ac.SimulationError, match=r"(?s)t = 0\.405.*asks supplier\.so for a value that it does not have"):
+        ac.simulate(model, stop_time=1)
+    with pytest.raises(ac.ExportError, match=r"supplier\.so"):
+        ac.export_fmu(model, "never.fmu")
