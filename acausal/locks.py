@@ -57,14 +57,20 @@ def exclusive(function: Callable[P, R]) -> Callable[P, R]:
     return call
 
 
-def unlocked(function: Callable[[], R], shares: bool = False) -> R:
-    """Call a function while the lock is released, unless it shares state; interrupts are deferred, see `Signals.waiting`.
+def locked(function: Callable[[], R]) -> R:
+    """Call a function that shares state; interrupts are deferred, see `Signals.waiting`."""
+    with Signals.waiting():
+        return function()
+
+
+def unlocked(function: Callable[[], R]) -> R:
+    """Call a function that shares no state while the lock is released; interrupts are deferred, see `Signals.waiting`.
 
     In a nested exclusive call the lock stays held: the outer call may be in the middle of an evaluation, or have
     changed state of the process.
     """
     with Signals.waiting():
-        if shares or _THREAD.depth != 1:
+        if _THREAD.depth != 1:
             return function()
         LOCK.release()
         try:

@@ -10,7 +10,7 @@ from enum import IntEnum
 import numpy as np
 
 from acausal.core.library import CALL, address, loaded
-from acausal.locks import unlocked
+from acausal.locks import locked, unlocked
 
 
 class Back(IntEnum):
@@ -250,7 +250,8 @@ class Run:
             *map(address, (*self._rows, self._events)),
         )
         call = self._library.ac_run_go
-        back = Back(unlocked(lambda: call(self._memory, byref(request), byref(self.state)), self.shares))
+        carry = locked if self.shares else unlocked
+        back = Back(carry(lambda: call(self._memory, byref(request), byref(self.state))))
         n, m = self.state.rows, self.state.events
         times, x, z, c, work = (rows[:n].copy() for rows in self._rows)
         return Rows(back, times[:, 0], x, z, c, work, self._events[:m].copy())

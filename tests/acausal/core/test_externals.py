@@ -93,7 +93,9 @@ def test_where_a_function_has_no_value_it_is_named():
     model = Growing(part=Part())
     result = ac.simulate(model, stop_time=0.4, tolerance=1e-9)
     np.testing.assert_allclose(result["x"], np.expm1(result.time), atol=1e-8)
-    with pytest.raises(ac.SimulationError, match=r"(?s)t = 0\.405.*asks supplier\.so for a value that it does not have"):
+    with pytest.raises(
+        ac.SimulationError, match=r"(?s)t = 0\.405.*asks supplier\.so for a value that it does not have"
+    ):
         ac.simulate(model, stop_time=1)
     with pytest.raises(ac.ExportError, match=r"supplier\.so"):
         ac.export_fmu(model, "never.fmu")
