@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import zipfile
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,21 +22,13 @@ from components.translational import Mass, Position
 pytest.importorskip("fmpy")
 
 from components.fmu import FMU
+from tests.components.oscillator import Spring
+from tests.components.oscillator import oscillator as exchanging
 
 HERE = Path(__file__).parent
 
 
-class Spring(Model):
-    """Force of a spring, from the speed of its end."""
-
-    k: Scalar = parameter("stiffness", unit="N/m", default=100)
-    v: Scalar = input("speed", unit="m/s")
-    F: Scalar = output("force", unit="N")
-    s: Scalar = variable("stretch", unit="m", start=0.1, fixed=True)
-
-    def equations(self):
-        yield der(self.s) == self.v
-        yield self.k * self.s == self.F
+oscillator = partial(exchanging, kind="model_exchange")
 
 
 class Ball(Model):
@@ -95,22 +88,6 @@ def files(request, tmp_path_factory):
     for model in (Spring(), Ball(), Held()):
         ac.export_fmu(model, folder / f"{type(model).__name__}.fmu", fmi_version=request.param)
     return folder
-
-
-def oscillator(path, **values):
-    """A mass on that spring."""
-
-    class Oscillator(Model):
-        spring = FMU(path, kind="model_exchange", **values)
-        x: Scalar = variable("place", unit="m", start=0.1, fixed=True)
-        v: Scalar = variable("speed", unit="m/s", start=0, fixed=True)
-
-        def equations(self):
-            yield der(self.x) == self.v
-            yield quantity(1, "kg") * der(self.v) == -self.spring.F
-            yield self.spring.v == self.v
-
-    return Oscillator()
 
 
 @pytest.mark.parametrize("method", ["rosenbrock", "idas"])

@@ -7,30 +7,22 @@ import re
 import subprocess
 import sys
 import zipfile
+from functools import partial
 
 import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, der, input, output, parameter, quantity, variable
+from acausal import Model, quantity
 from models import Bricard
 
 pytest.importorskip("fmpy")
 
 from components.fmu import FMU
+from tests.components.oscillator import Spring
+from tests.components.oscillator import oscillator as exchanging
 
-
-class Spring(Model):
-    """Force of a spring, from the speed of its end."""
-
-    k: Scalar = parameter("stiffness", unit="N/m", default=100)
-    v: Scalar = input("speed", unit="m/s")
-    F: Scalar = output("force", unit="N")
-    s: Scalar = variable("stretch", unit="m", start=0.1, fixed=True)
-
-    def equations(self):
-        yield der(self.s) == self.v
-        yield self.k * self.s == self.F
+oscillator = partial(exchanging, powers=[("v", "F")])
 
 
 @pytest.fixture(scope="module", params=[2, 3])
@@ -39,22 +31,6 @@ def spring(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("fmu") / "spring.fmu"
     ac.export_fmu(Spring(), path, fmi_version=request.param)
     return path
-
-
-def oscillator(path, **values):
-    """A mass on that spring."""
-
-    class Oscillator(Model):
-        spring = FMU(path, powers=[("v", "F")], **values)
-        x: Scalar = variable("place", unit="m", start=0.1, fixed=True)
-        v: Scalar = variable("speed", unit="m/s", start=0, fixed=True)
-
-        def equations(self):
-            yield der(self.x) == self.v
-            yield quantity(1, "kg") * der(self.v) == -self.spring.F
-            yield self.spring.v == self.v
-
-    return Oscillator()
 
 
 def test_errors_fall_with_the_step(spring):
