@@ -8,15 +8,15 @@ from functools import cache
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from acausal.core.build.compiling import file_of, own_platform
 from acausal.core.columns import COLUMNS
-from acausal.core.library import loaded
+from acausal.core.library import address, loaded
 from acausal.instructions import EXTERNAL, SLOPE, slope_place
 from acausal.symbols import scalars, stacked
 
 VALUE = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_void_p, ctypes.c_int32)
-
 PREPARE = ctypes.CFUNCTYPE(ctypes.c_int32)
 MARK = -1.0  # of a function among the columns
 FMI_FUNCTIONS = (
@@ -38,12 +38,18 @@ class ExternalData(ctypes.Structure):
     )
 
 
+def external_data(argument: np.ndarray, value: Any, completed: Any = None) -> ExternalData:
+    """Return what the library takes as a function, which lasts as long as its arguments and the functions of C."""
+    functions = (ctypes.cast(function, ctypes.c_void_p).value for function in (value, completed))
+    return ExternalData(MARK, len(argument), address(argument), *functions)
+
+
 class FmuData(ctypes.Structure):
     """What the library takes as an FMU for Model Exchange, see `exchanged_fmu.c`."""
 
     _fields_ = (
         ("function", ExternalData),
-        *((name, ctypes.c_int32) for name in ("version", "states", "inputs", "outputs", "indicators", "parameters")),
+        *((name, ctypes.c_int32) for name in ("version", "states", "inputs", "outputs", "indicators")),
         *((name, ctypes.c_int32) for name in ("completes", "wanted", "ready", "set", "known")),
         ("prepare", PREPARE),
         *((name, ctypes.c_void_p) for name in ("instance", *FMI_FUNCTIONS)),
@@ -85,7 +91,7 @@ def values_of(number: ca.SX, arguments: ca.SX, places: Sequence[int], values: in
     number : casadi.SX
         Number of the function.
     arguments : casadi.SX
-        A column; nan where any number will do.
+        A column; the largest float where any number will do.
     places : sequence of int
         Which values.
     values : int

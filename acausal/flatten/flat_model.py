@@ -176,8 +176,8 @@ class FlatParameters:
         Parameters that depend on others, and the names of these.
     structural_zeros : tuple of str
         Entries that were exactly 0 when compiled and have no symbol.
-    tables : mapping of int to Table
-        Tables by the entries that hold the number of their first column.
+    tables : mapping of int to Table or External
+        Tables by the entries that hold the number of their first column, and functions of other libraries by their number.
     raised : frozenset of int
         Those of these entries that stand in der(...).
     """
@@ -191,6 +191,11 @@ class FlatParameters:
     structural_zeros: tuple[str, ...]
     tables: Mapping[int, Table | External]
     raised: frozenset[int]
+
+    @property
+    def externals(self) -> list[External]:
+        """The functions of other libraries."""
+        return [own for own in self.tables.values() if isinstance(own, External)]
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 from acausal import Scalar, call, der, discrete, external, input, parameter, reinit, time, variable, when
@@ -33,12 +34,10 @@ class FixedDelay(SISO):
         end = external(past, [*ending, None, self.delay_time], [END])[0]
         yield when(time >= end, reinit(self.piece, self.piece + 1))
 
-    @property
+    @cached_property
     def _past(self) -> History:
         """The past of the input, one for each part of a built model."""
-        if "_history" not in vars(self):
-            self._history = History(f"the delay of {type(self).__name__}")
-        return self._history
+        return History(f"the delay of {type(self).__name__}")
 
 
 class _Begin:

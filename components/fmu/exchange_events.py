@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import ctypes
 import weakref
 from typing import Any
 
 import numpy as np
 
 from acausal import External
-from acausal.core.externals import MARK, VALUE, ExternalData
-from acausal.core.library import address
+from acausal.core.externals import VALUE, external_data
 from components.fmu.exchange_function import ExchangeFunction
 from components.fmu.instance import get_values, set_values
 
@@ -33,9 +31,7 @@ class StartFunction(External):
         self.argument = np.zeros(len(function.argument) - 1 - function.nx)
         find = weakref.WeakMethod(self._find)  # no cycle
         self._value = VALUE(lambda own, place: find()(own, place))  # type: ignore[misc]
-        data = ExternalData(
-            MARK, len(self.argument), address(self.argument), ctypes.cast(self._value, ctypes.c_void_p).value
-        )
+        data = external_data(self.argument, self._value)
         super().__init__(f"the start of {function.path}", [s.name for s in function.dynamics.states], data)
 
     def _find(self, own: int, place: int) -> float:

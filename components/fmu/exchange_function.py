@@ -5,15 +5,14 @@ from __future__ import annotations
 import ctypes
 import os
 import weakref
-from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
 from acausal import External
-from acausal.core.externals import FMI_FUNCTIONS, MARK, PREPARE, ExternalData, FmuData
+from acausal.core.externals import FMI_FUNCTIONS, PREPARE, FmuData, external_data
 from acausal.core.library import address, loaded
-from components.fmu.instance import initialized
+from components.fmu.instance import end, initialized
 from components.fmu.interface import Interface
 
 NEVER = 1e300  # no time event: finite, as a condition compares it
@@ -75,11 +74,8 @@ class ExchangeFunction(External):
         arrays["now"][2 : n + 1] = [s.raw for s in (*own.states, *own.inputs)]
         ready = weakref.WeakMethod(self._ready)  # no cycle, so that the FMU ends with its last use
         self._prepare = PREPARE(lambda: ready()())  # type: ignore[misc]
-        value, completed = (
-            ctypes.cast(getattr(loaded(runs=False), f"ac_fmu_{what}"), ctypes.c_void_p).value
-            for what in ("value", "completed")
-        )
-        data = FmuData(ExternalData(MARK, len(self.argument), address(self.argument), value, completed))
+        library = loaded(runs=False)
+        data = FmuData(external_data(self.argument, library.ac_fmu_value, library.ac_fmu_completed))
         data.version, data.completes, data.prepare = int(self.interface.version[0]), own.completes, self._prepare
         data.states, data.inputs, data.outputs, data.indicators = self.nx, self.nu, self.ny, own.indicators
         for name, array in arrays.items():
@@ -116,10 +112,7 @@ class ExchangeFunction(External):
                 setattr(self.data, name, ctypes.cast(getattr(self.fmu.dll, prefix + function), ctypes.c_void_p).value)
 
     def __del__(self) -> None:
-        if fmu := getattr(self, "fmu", None):
-            with suppress(Exception):  # an FMU that fails at its end has done its work
-                fmu.terminate()
-                fmu.freeInstance()
+        end(getattr(self, "fmu", None))
 
     def parts(self, argument: np.ndarray) -> tuple[Any, ...]:
         """Return event mode, time, states, inputs, discrete inputs and parameters."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
+from contextlib import suppress
 from functools import cache
 from typing import Any
 
@@ -45,6 +46,14 @@ def initialized(interface: Interface, kind: str, time: float, p: Any, u: Any, fm
     set_values(fmu, interface.inputs, u)
     fmu.exitInitializationMode()
     return fmu
+
+
+def end(fmu: Any) -> None:
+    """End an instance; None for no instance."""
+    if fmu is not None:
+        with suppress(Exception):  # an FMU that fails at its end has done its work
+            fmu.terminate()
+            fmu.freeInstance()
 
 
 def set_values(fmu: Any, signals: tuple[Signal, ...], values: Any) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from itertools import islice
 from typing import Any, ClassVar
 
@@ -69,14 +70,10 @@ class ModelExchange(Component):
             u, d, p = self._given
             yield self.states == external(StartFunction(self._function), [time, *u, *d, *p], range(nx))
 
-    @property
+    @cached_property
     def _function(self) -> ExchangeFunction:
         """The FMU, one instance for each part of a built model."""
-        return vars(self).setdefault("_instance", None) or self._made()
-
-    def _made(self) -> ExchangeFunction:
-        self._instance = ExchangeFunction(self.interface)
-        return self._instance
+        return ExchangeFunction(self.interface)
 
     @property
     def _given(self) -> tuple[list[Any], list[Any], list[Any]]:
@@ -96,7 +93,7 @@ class ModelExchange(Component):
         return [[self.kept[k] for k in islice(entries, n)] for n in sizes]
 
     def __reduce__(self) -> Any:
-        return self.rebuild, (self.interface,), {k: v for k, v in vars(self).items() if k != "_instance"}
+        return self.rebuild, (self.interface,), self.__dict__
 
 
 def fields_of(own: Dynamics) -> dict[str, Any]:

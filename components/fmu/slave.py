@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
-from components.fmu.instance import get_values, initialized, set_values
+from components.fmu.instance import end, get_values, initialized, set_values
 from components.fmu.interface import Interface
 
 
@@ -66,7 +65,4 @@ class Slave:
         self._time += step
 
     def __del__(self) -> None:
-        if fmu := getattr(self, "_fmu", None):
-            with suppress(Exception):  # an FMU that fails at its end has done its work
-                fmu.terminate()
-                fmu.freeInstance()
+        end(getattr(self, "_fmu", None))

@@ -67,11 +67,12 @@ int32_t ac_complete_step(ac_instance *i) {
 
 /* Tell those that follow the step part by part of what has changed at an event. */
 int32_t ac_complete_event(ac_instance *i) {
-    if (i->externals) ac_moved(i);
-    int32_t failed = i->externals ? ac_know(i, AC_RATE) : AC_OK;
+    if (!i->externals) return AC_OK;
+    ac_moved(i);
+    const int32_t failed = ac_know(i, AC_RATE);
     for (int32_t k = 0; k < i->externals && !failed; k++) {
         if (i->external[k]->parts > 1) (void)i->external[k]->completed(i->external[k], 0);
     }
-    if (i->externals) ac_changed(i); /* what follows from constants alone may follow from what they keep, too */
+    ac_changed(i); /* what follows from constants alone may follow from what they keep, too */
     return failed;
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define ALIKE DBL_MAX /* an argument that does not matter */
-#define OK 1        /* of a status: fmi2Warning and fmi3Warning */
+#define OK 1          /* of a status: fmi2Warning and fmi3Warning */
 
 enum { DERIVATIVES = 1, OUTPUTS = 2, INDICATORS = 4, ALL = 7 };
 
@@ -24,7 +24,7 @@ typedef int directional3(void *, const uint32_t *, size_t, const uint32_t *, siz
 
 typedef struct {
     ac_external function;
-    int32_t version, states, inputs, outputs, indicators, parameters;
+    int32_t version, states, inputs, outputs, indicators;
     int32_t completes, wanted;     /* whether it is told of accepted steps, and has asked for an event */
     int32_t ready, set, known;     /* whether it is in the event mode, at the arguments, and which values are those */
     int32_t (*prepare)(void);      /* bring it into the event mode, with the parameters; 0 where that fails */

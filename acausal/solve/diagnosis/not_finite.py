@@ -11,7 +11,6 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.compiler.full_residuals import EQUATION, Row
 from acausal.instructions import EXTERNAL
-from acausal.language.external import External
 from acausal.policy import POLICY
 from acausal.solve.diagnosis.probe import Probe, decisive_zeros, zeros_text
 from acausal.solve.diagnosis.singularity import dependent_equations
@@ -116,8 +115,7 @@ def _broken(problem: Problem, probe: Probe) -> str:
 
 def _refused(problem: Problem) -> str:
     """Return what functions of other libraries raised, "" if none did."""
-    tables = problem.compiled.reduced.flat.parameters.tables.values()
-    failed = [own for own in tables if isinstance(own, External) and own.error]
+    failed = [own for own in problem.compiled.reduced.flat.parameters.externals if own.error]
     return "\n".join(f"{own.path} gives no value: {own.error}" for own in failed)
 
 

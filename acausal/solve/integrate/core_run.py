@@ -9,7 +9,6 @@ from acausal.compiler.memo import memoized
 from acausal.compiler.runtime import INNER, NOTHING, VERSION, Runtime
 from acausal.core import Run, StoredModel
 from acausal.core.model_file import floats, framed, ints
-from acausal.language.external import External
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
 from acausal.solve.initialization.independent_constraints import closure_of
@@ -110,7 +109,7 @@ def make_run(
     run = Run(framed(VERSION, sections), numbers, room)
     if functions:
         run.calls(functions, functions.arguments, functions.results)
-    externals = [own for own in compiled.reduced.flat.parameters.tables.values() if isinstance(own, External)]
+    externals = compiled.reduced.flat.parameters.externals
     run.shares = bool(externals)
     run.tell_steps([own.address for own in externals if own.completes])
     return run

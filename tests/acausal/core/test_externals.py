@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import gc
 
 import casadi as ca
@@ -10,8 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.core.externals import MARK, VALUE, ExternalData, values_of
-from acausal.core.library import address
+from acausal.core.externals import VALUE, external_data, values_of
 from acausal.core.tape import make_tape
 from acausal.instructions import READABLE
 from acausal.language.external import External
@@ -24,8 +22,7 @@ class Product(External):
     def __init__(self):
         self.argument, self.calls = np.zeros(3), 0
         self._value = VALUE(self.value)
-        address_of = ctypes.cast(self._value, ctypes.c_void_p).value
-        super().__init__("product", ("product", "sine"), ExternalData(MARK, 3, address(self.argument), address_of))
+        super().__init__("product", ("product", "sine"), external_data(self.argument, self._value))
 
     def value(self, own, place):
         self.calls += 1
@@ -77,8 +74,7 @@ class Part(External):
     def __init__(self):
         self.argument = np.zeros(1)
         self._value = VALUE(lambda own, place: np.nan if self.argument[0] > 0.5 else [self.argument[0], 1.0][place])
-        address_of = ctypes.cast(self._value, ctypes.c_void_p).value
-        super().__init__("supplier.so", ("value",), ExternalData(MARK, 1, address(self.argument), address_of))
+        super().__init__("supplier.so", ("value",), external_data(self.argument, self._value))
 
 
 class Growing(ac.Model):
