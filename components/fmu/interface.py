@@ -41,10 +41,12 @@ def read_interface(path: str | os.PathLike[str], kind: str | None, taken: Collec
     Raises
     ------
     DeclarationError
-        The file is no FMU, or not of this kind, or an input or output is not a scalar number.
+        The file is no FMU, or not of this kind, or an input or output is not a scalar number; or fmpy is not installed.
     """
-    from fmpy import read_model_description
-
+    try:
+        from fmpy import read_model_description
+    except ImportError:
+        raise DeclarationError("FMUs as parts need fmpy: python -m pip install 'acausal[fmu]'.") from None
     path = os.path.abspath(path)
     if not os.path.isfile(path):
         raise DeclarationError(f"there is no FMU {os.fspath(path)!r}.")

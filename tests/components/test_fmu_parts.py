@@ -173,3 +173,9 @@ def test_a_run_that_has_to_go_back_tells_why_it_cannot(lag):
     with pytest.raises(ac.SimulationError, match=r'has no copy\. Take constraints="projection"'):
         ac.simulate(machine(), intervals=20, constraints="states", method="rosenbrock")
     ac.simulate(machine(), intervals=20, constraints="projection")
+
+
+def test_without_fmpy_the_message_tells_how_to_install_it(spring, monkeypatch):
+    monkeypatch.setitem(sys.modules, "fmpy", None)
+    with pytest.raises(ac.DeclarationError, match=r"python -m pip install 'acausal\[fmu\]'"):
+        FMU(spring)
