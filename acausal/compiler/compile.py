@@ -31,7 +31,11 @@ from acausal.reduce.explain import UNCONNECTED
 @exclusive
 @uncollected()
 def compile(
-    model: Component, parameters: Mapping[str, Any] | None = None, *, free: Collection[str] = ()
+    model: Component,
+    parameters: Mapping[str, Any] | None = None,
+    *,
+    free: Collection[str] = (),
+    full: bool = False,
 ) -> CompiledModel:
     """Compile a model: flatten, analyse, reduce and generate code.
 
@@ -44,6 +48,8 @@ def compile(
     free : collection of str, optional
         Parameters, or entries such as "body.r_CM[0]", that stay in the equations although they are 0, so that they can be
         changed afterwards.
+    full : bool
+        Whether unknowns that stay 0 for ever remain, such as the motion of a planar machine out of its plane.
 
     Returns
     -------
@@ -66,7 +72,7 @@ def compile(
 
     model, parameters = checked_model(model), checked_values(parameters)
     free = (free,) if isinstance(free, str) else tuple(free)
-    flat = flatten(model, parameters, free)
+    flat = flatten(model, parameters, free, full)
     settable = Settable(flat)
     settable.values(None)  # a parameter out of its limits, such as a length of 0, is reported before its consequences
     lap("flatten")
@@ -77,7 +83,7 @@ def compile(
     compiled = CompiledModel(
         reduced,
         seconds,
-        Source(partial(compile, free=free) if free else compile, model, parameters),
+        Source(partial(compile, free=free, full=full) if free or full else compile, model, parameters),
         memo={Settable: settable},  # its values have been checked already
     )
     _generate(compiled)
@@ -120,13 +126,34 @@ def _driven(compiled: CompiledModel, laws: dict[str, Any]) -> CompiledModel:
     return compiled.memo[_driven, forms]
 
 
+def full_system(compiled: CompiledModel) -> CompiledModel:
+    """Return the model with the unknowns that stay 0, compiled again once; the model itself without a source."""
+    source = compiled.source
+    if source is None or not compiled.reduced.flat.stays_zero:
+        return compiled
+    if full_system not in compiled.memo:
+        compiled.memo[full_system] = source.make(source.model, source.parameters, full=True)
+    return compiled.memo[full_system]
+
+
 def ready(
-    model: Component | CompiledModel, parameters: Mapping[str, Any] | None = None
+    model: Component | CompiledModel, parameters: Mapping[str, Any] | None = None, *, full: bool = False
 ) -> tuple[CompiledModel, np.ndarray]:
-    """Return the compiled model, compiling it if needed, and the values of its free parameters after the changes."""
+    """Return the compiled model, compiling it if needed, and the values of its free parameters after the changes.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        The model.
+    parameters : mapping of str to value, optional
+        Values by path.
+    full : bool
+        Whether unknowns that stay 0 remain.
+    """
     if isinstance(model, CompiledModel):
         values = checked_values(parameters)
         model = _driven(model, {name: v for name, v in values.items() if model.settable.is_new_law(name, v)})
+        model = full_system(model) if full else model
         return model, model.settable.values({k: v for k, v in values.items() if not isinstance(v, Driven)})
-    compiled = compile(model, parameters)
+    compiled = compile(model, parameters, full=full)
     return compiled, compiled.settable.values(None)

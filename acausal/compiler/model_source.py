@@ -26,7 +26,7 @@ class Source(NamedTuple):
         Values by path that replace those of the model.
     """
 
-    make: Callable[[Component, Mapping[str, Any]], Any]
+    make: Callable[..., Any]
     model: Component
     parameters: Mapping[str, Any]
 

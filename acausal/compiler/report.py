@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +18,8 @@ from acausal.reduce.tables import bent_tables
 from acausal.symbols import dense, scalars, vec
 
 SHOWN = 12
+FEW = 6
+ENTRY = re.compile(r"(.*)\[(\d+)\](\)*)")
 
 
 @dataclass(frozen=True)
@@ -69,6 +72,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
         "jacobian_nonzeros": int(local.nnz_out(1)),
         "operations": int(local.n_instructions()),
         "structural_zeros": list(flat.parameters.structural_zeros),
+        "stays_zero": list(flat.stays_zero),
         "algebraic_loops": algebraic_loops(reduced),
         "bent_tables": bent_tables(flat, reduced.plan),
         "loops": loops_at(reduced, found),
@@ -96,6 +100,13 @@ def summary(r: Mapping[str, Any]) -> str:
         f"  algebraic     {_list(r['algebraic'])}",
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
+    if r["stays_zero"]:
+        names = compressed(r["stays_zero"])
+        more = f" and {len(names) - FEW} more" if len(names) > FEW else ""
+        lines.append(
+            f"  stays zero    {', '.join(names[:FEW])}{more}, by {r['unknowns_at_zero']} unknowns: a disturbance across needs "
+            "a start value or a force"
+        )
     if r["bent_tables"]:
         lines.append(
             f'  tables        {_list(r["bent_tables"])}: accelerations jump at their points; not with kind="cubic"'
@@ -114,6 +125,24 @@ def summary(r: Mapping[str, Any]) -> str:
     seconds = r["seconds"]
     lines.append("  seconds       " + ", ".join(f"{k} {v:.3f}" for k, v in seconds.items()))
     return "\n".join(lines)
+
+
+def compressed(names: Sequence[str]) -> list[str]:
+    """Return names with consecutive entries of a vector as one slice: q[3], q[4], q[5] as q[3:6]."""
+    found = list[
+        tuple[str, str, int, int]
+    ]()  # text before and after the indices, the first one, the one after the last
+    for name in names:
+        entry = ENTRY.fullmatch(name)
+        before, index, after = entry.groups() if entry else (name, "-1", "")
+        if found and found[-1][:2] == (before, after) and found[-1][3] == int(index) > 0:
+            found[-1] = (*found[-1][:3], int(index) + 1)
+        else:
+            found.append((before, after, int(index), int(index) + 1))
+    return [
+        name if first < 0 else f"{name}[{first}{f':{end}' if end > first + 1 else ''}]{after}"
+        for name, after, first, end in found
+    ]
 
 
 def algebraic_loops(reduced: ReducedModel) -> list[list[str]]:

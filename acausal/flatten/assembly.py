@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -10,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import UnbalancedModelError
-from acausal.flatten.attributes import attributes, unknown_units
+from acausal.flatten.attributes import attributes, by_preference, jumping, started_elsewhere, unknown_units
 from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.equation_owner import contradiction_text
@@ -21,15 +22,16 @@ from acausal.flatten.flat_model import (
     FlatEquations,
     FlatModel,
     FlatUnknowns,
-    Initial,
 )
 from acausal.flatten.flat_parameters import flat_parameters
+from acausal.flatten.initial_conditions import InitialConditions
 from acausal.flatten.linear_values import Linear, LinearValues, expressions
 from acausal.flatten.origin import Origin
 from acausal.flatten.part_constraints import rates
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
+from acausal.flatten.stays_zero import StaysZero, stays_zero
 from acausal.language.functions import feedback, initial, time
-from acausal.symbols import dense, picked, scalars, stacked
+from acausal.symbols import picked, scalars, stacked
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,8 @@ class _Remaining:
         Unknowns and residuals that remain.
     present : set of int
         Unknowns that occurred in the equations.
+    vanishing : StaysZero
+        Unknowns that stay 0.
     """
 
     done: Simplification
@@ -53,6 +57,7 @@ class _Remaining:
     unknowns: list[int]
     rows: list[int]
     present: set[int]
+    vanishing: StaysZero
 
     @cached_property
     def place(self) -> dict[int, int]:
@@ -73,10 +78,14 @@ class Assembly:
         Replaces placeholders of derivatives in a list of expressions.
     declared : dict of int to casadi.SX
         Variables with a declared derivative that are not integrated.
+    full : bool
+        Whether unknowns that stay 0 remain.
     """
 
-    def __init__(self, raw: CollectedStatements, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
-        self.raw, self.chain, self.declared = raw, chain, declared
+    def __init__(
+        self, raw: CollectedStatements, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX], full: bool
+    ) -> None:
+        self.raw, self.chain, self.declared, self.full = raw, chain, declared, full
         self.size = chain.variables.numel()
         closures = raw.equations.closures
         residuals = stacked([*raw.equations.residuals, *[c.dual for c in closures]])
@@ -104,12 +113,20 @@ class Assembly:
             parameters=flat_parameters(self.raw),
             discontinuities=self.discontinuities,
             loops=loops_of(
-                self.raw, set(done.redundant), left.values, left.rows, residuals, self.substitutes, self._rates(left)
+                self.raw,
+                set(done.redundant),
+                {source.row for source in left.vanishing.members.values()},
+                left.values,
+                left.rows,
+                residuals,
+                self.substitutes,
+                self._rates(left),
             ),
             energies=self.energies,
             unconnected=self.raw.graph.unconnected,
             tree=self.raw.build.root,
             counts=self._counts(left),
+            stays_zero=by_preference(self.raw, self.lower, left.vanishing.differentiated),
         )
 
     def _simplified(self) -> _Remaining:
@@ -118,8 +135,21 @@ class Assembly:
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
         linear = LinearValues(self.symbols, given, self.residuals)
         present = set(linear.input) | self._requested()
-        units = unknown_units(self.raw, self.lower)
-        done = Simplifier(linear, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept).run()
+        units, vanishing = unknown_units(self.raw, self.lower), StaysZero()
+
+        def vanish(simplifier: Simplifier) -> Mapping[int, Source]:
+            nonlocal vanishing
+            barred = started_elsewhere(self.raw, linear, self.discontinuities)
+            vanishing = stays_zero(
+                simplifier,
+                barred,
+                present,
+                lambda: LinearValues(self.symbols, given, self._conditions.residuals, linear.solved),
+            )
+            return vanishing.members
+
+        simplifier = Simplifier(linear, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept)
+        done = simplifier.run(None if self.full else vanish)
         self._refuse_contradictions(done)
         values = [linear.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
         self.origins += [self.origins[source.row] for _, source in done.left]
@@ -127,10 +157,10 @@ class Assembly:
         rows = [r for r in range(len(self.origins)) if r not in done.used and r not in unused]
         chained = {k for k, up in enumerate(done.derivative) if up >= 0} | {up for up in done.derivative if up >= 0}
         needed = chained | present | set(range(self.size))
-        return _Remaining(done, values, sorted(needed.difference(done.solved)), rows, present)
+        return _Remaining(done, values, sorted(needed.difference(done.solved)), rows, present, vanishing)
 
     def _unknowns(self, left: _Remaining, eliminated: tuple[ca.SX, ca.SX]) -> FlatUnknowns:
-        found = attributes(self.raw, self.lower, self._jumping(), left.done.solved)
+        found = attributes(self.raw, self.lower, jumping(self.raw, self.discontinuities), left.done.solved)
         own = [found[k] for k in left.unknowns]
         at = [k for k in self.declared if k in left.place]
         declared = scalars(ca.substitute(stacked([self.declared[k] for k in at]), *eliminated)) if at else []
@@ -156,7 +186,7 @@ class Assembly:
             residuals=picked(residuals, [place.get(r, r) for r in left.rows]),
             origins=tuple(self.origins[r] for r in left.rows),
             defines=tuple(defines.get(r, -1) for r in left.rows),
-            initial=self._initial(*eliminated),
+            initial=self._conditions.without(eliminated, left.vanishing.conditions),
             redundant=tuple(self.origins[r] for r in left.done.redundant),
             eliminated_by=lambda k: self._eliminating(self._source(left.rows[k], left.done), left.done),
             repeats=lambda: self._repeats(left.done),
@@ -190,6 +220,7 @@ class Assembly:
             "unknowns_flat": self.size + len([k for k in left.present if k >= self.size]),
             "constants": sum(not terms for _, terms in done.solved.values()),
             "aliases": sum(bool(terms) for _, terms in done.solved.values()),
+            "unknowns_at_zero": len(left.vanishing.members),
             "redundant": len(done.redundant),
             "equations_simplified": len(left.rows),
             "unknowns_simplified": len(left.unknowns),
@@ -255,29 +286,9 @@ class Assembly:
                 own[r] = variable
         return own
 
-    def _jumping(self) -> list[int]:
-        """Return the continuous variables that jump at events, which must be states."""
-        targets = [
-            jump.target for guard in self.discontinuities.guards for jump in guard.jumps if jump.target.is_symbolic()
-        ]
-        places = (self.raw.index.get(target.element_hash(), -1) for target in targets)
-        return [k for k in places if k >= 0]
-
-    def _initial(self, was: ca.SX, becomes: ca.SX) -> tuple[Initial, ...]:
-        """Return the fixed start values, then the initial equations of components."""
-        fixed = [
-            (residual, (text, replace(Origin.of(a.owner), where=a.start_line)))
-            for a in self.raw.arrays
-            for residual, text in a.conditions()
-        ]
-        residuals = [*(residual for residual, _ in fixed), self.initial_residuals]
-        texts = [text for _, text in fixed]
-        soft = [False] * len(texts) + self.raw.initial.scalar_soft()
-        texts += [("initial equation", o) for o in self.raw.initial.scalar_origins()]
-        entries = ca.substitute([stacked([dense(r) for r in residuals])], [was], [becomes])[0]
-        if not texts:
-            return ()
-        return tuple(Initial(r, *text, s) for r, text, s in zip(scalars(entries), texts, soft, strict=True))
+    @cached_property
+    def _conditions(self) -> InitialConditions:
+        return InitialConditions.of(self.raw, self.initial_residuals)
 
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:

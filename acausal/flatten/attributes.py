@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 import casadi as ca
 import numpy as np
 
 from acausal.flatten.collected_statements import CollectedStatements
-from acausal.flatten.linear_values import Linear
+from acausal.flatten.flat_model import FlatDiscontinuities
+from acausal.flatten.linear_values import Linear, LinearValues
 from acausal.flatten.variables import VariableArray
 from acausal.language.fields import ALWAYS
 from acausal.symbols import dense, scalars, stacked, vec
@@ -86,6 +87,54 @@ def unknown_units(raw: CollectedStatements, lower: list[int]) -> list[Dimension 
     for k in lower:
         found.append(_rate(found[k]))
     return found
+
+
+def jumping(raw: CollectedStatements, discontinuities: FlatDiscontinuities) -> list[int]:
+    """Return the continuous variables that jump at events, which must be states."""
+    targets = [jump.target for guard in discontinuities.guards for jump in guard.jumps if jump.target.is_symbolic()]
+    places = (raw.index.get(target.element_hash(), -1) for target in targets)
+    return [k for k in places if k >= 0]
+
+
+def started_elsewhere(raw: CollectedStatements, linear: LinearValues, discontinuities: FlatDiscontinuities) -> set[int]:
+    """Return the remaining unknowns that may start at other values than 0, or get there at an event.
+
+    These have another start value, a guess too, or jump, or their sign chooses the mode of a set-valued law.
+
+    Parameters
+    ----------
+    raw : CollectedStatements
+        Statements of the components.
+    linear : LinearValues
+        Values of removed unknowns, whose start values count.
+    discontinuities : FlatDiscontinuities
+        Jumps and set-valued laws.
+    """
+    sliding = ca.symvar(stacked([law.speed for law in discontinuities.laws]))
+    found = jumping(raw, discontinuities)
+    found += [raw.index[s.element_hash()] for s in sliding if s.element_hash() in raw.index]
+    zero, first = {key: start.sx.is_zero() for key, start in {id(a.start): a.start for a in raw.arrays}.items()}, 0
+    for array in raw.arrays:
+        if not zero[id(array.start)] or any(array.guessed) or any(array.fixed):
+            for k, start in enumerate(scalars(dense(array.start.sx)), first):
+                offset, _ = linear.resolve((0.0, ((k, 1.0),)))
+                by_default = start.is_zero() and not (array.guessed[k - first] or array.fixed[k - first])
+                if not by_default and not (start.is_constant() and float(start) == offset):
+                    found.append(k)
+        first += len(array.guessed)
+    return {k for unknown in found for k, _ in linear.resolve((0.0, ((unknown, 1.0),)))[1]}
+
+
+def by_preference(raw: CollectedStatements, lower: list[int], unknowns: Collection[int]) -> tuple[str, ...]:
+    """Return the names of unknowns, those preferred as states first."""
+    if not unknowns:
+        return ()
+    names = [name for array in raw.arrays for name in array.names]
+    preferred = [array.declared.select > 0 for array in raw.arrays for _ in array.names]
+    for k in lower:
+        names.append(f"der({names[k]})")
+        preferred.append(False)
+    return tuple(names[k] for k in sorted(unknowns, key=lambda k: (not preferred[k], k)))
 
 
 def weighing(raw: CollectedStatements) -> tuple[str, ...]:

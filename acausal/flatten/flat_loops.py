@@ -18,6 +18,7 @@ from acausal.symbols import scalars
 def loops_of(
     raw: CollectedStatements,
     redundant: set[int],
+    vanishing: set[int],
     values: list[Linear],
     rows: list[int],
     residuals: ca.SX,
@@ -32,6 +33,8 @@ def loops_of(
         Statements of the components.
     redundant : set of int
         Redundant residuals.
+    vanishing : set of int
+        Residuals that hold as unknowns stay 0; they constrain the other unknowns no more than redundant ones.
     values : list of Linear
         Value of each unknown.
     rows : list of int
@@ -61,7 +64,7 @@ def loops_of(
             own[number[id(c.cut)]].append(c)
     origins = raw.equations.scalar_origins()
     return FlatLoops(
-        tuple(_loop(raw, redundant, values, flows, *both) for both in zip(cuts, own, strict=True)),
+        tuple(_loop(raw, redundant, vanishing, values, flows, *both) for both in zip(cuts, own, strict=True)),
         closures,
         tuple(origins[c.row] for c in raw.equations.closures if c.cut is None and c.row in redundant),
     )
@@ -70,6 +73,7 @@ def loops_of(
 def _loop(
     raw: CollectedStatements,
     redundant: set[int],
+    vanishing: set[int],
     values: list[Linear],
     flows: list[tuple[str, bool]],
     cut: Cut,
@@ -81,7 +85,8 @@ def _loop(
     parts = tuple(part._path for part in cut.loop if _has_states(part))
     ends = cut.statement
     kind = ends.a.loop_kind(undetermined)
-    return Loop(ends.a._path, ends.b._path, cut.where, parts, len(own), len(dropped), undetermined, kind)
+    surplus = len(dropped) + sum(c.row in vanishing for c in own)
+    return Loop(ends.a._path, ends.b._path, cut.where, parts, len(own), surplus, undetermined, kind)
 
 
 def _has_states(part: Any) -> bool:

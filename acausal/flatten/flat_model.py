@@ -264,6 +264,8 @@ class FlatModel:
         The bound model, whose attributes hold the original symbols.
     counts : mapping of str to int
         Numbers of equations and unknowns before and after simplification.
+    stays_zero : tuple of str
+        Variables with a derivative that were eliminated as they stay 0 for ever, with their derivatives that have one.
     """
 
     unknowns: FlatUnknowns
@@ -275,3 +277,4 @@ class FlatModel:
     unconnected: tuple[str, ...]
     tree: Component
     counts: Mapping[str, int]
+    stays_zero: tuple[str, ...] = ()

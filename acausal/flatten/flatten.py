@@ -18,7 +18,9 @@ from acausal.language.component import Component
 from acausal.symbols import scalars
 
 
-def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: Collection[str] = ()) -> FlatModel:
+def flatten(
+    model: Component, overrides: Mapping[str, Any] | None = None, free: Collection[str] = (), full: bool = False
+) -> FlatModel:
     """Return the flat model: instantiate, connect, collect the equations, propagate constants and aliases.
 
     Parameters
@@ -29,6 +31,8 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
         Values of parameters and structural parameters by path, instead of those in the model.
     free : collection of str
         Parameters that keep a symbol even if they are 0.
+    full : bool
+        Whether unknowns that stay 0 remain.
 
     Returns
     -------
@@ -56,7 +60,8 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
         raw.equations.residuals.append(chain.symbol(k) - declared[k])
         raw.equations.origins.append(Origin(names[k], "root", "declared derivative"))
         raw.equations.sides.append((chain.symbol(k), declared[k]))
-    return Assembly(raw, chain, resolved, {k: e for k, e in declared.items() if k not in integrated}).flat_model()
+    followed = {k: e for k, e in declared.items() if k not in integrated}
+    return Assembly(raw, chain, resolved, followed, full).flat_model()
 
 
 def _declared(raw: CollectedStatements) -> dict[int, ca.SX]:

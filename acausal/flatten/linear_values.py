@@ -36,9 +36,13 @@ class LinearValues:
     ----------
     unknowns, others, residuals : casadi.SX
         Columns; `others` are parameters, time and all other symbols that are not unknowns.
+    solved : dict of int to Linear, optional
+        Values of removed unknowns.
     """
 
-    def __init__(self, unknowns: ca.SX, others: ca.SX, residuals: ca.SX) -> None:
+    def __init__(
+        self, unknowns: ca.SX, others: ca.SX, residuals: ca.SX, solved: dict[int, Linear] | None = None
+    ) -> None:
         read = read_instructions(ca.Function("residuals", [unknowns, others], [residuals], READABLE))
         self.args, self.constant, self.residual = read.arguments, read.constant, read.results[0]
         # The first of the two arguments contains the unknowns.
@@ -54,7 +58,7 @@ class LinearValues:
         self.residuals_at: dict[int, list[int]] = {}
         for row, node in enumerate(self.residual):
             self.residuals_at.setdefault(node, []).append(row)
-        self.solved: dict[int, Linear] = {}
+        self.solved: dict[int, Linear] = solved or {}
         self.followers: dict[int, list[int]] = {}
         self._stale: list[int] = []
         self.value: list[Linear | None] = [None] * len(self.op)

@@ -7,7 +7,7 @@ unknown is the derivative of one other at most.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -93,9 +93,26 @@ class Simplifier:
         self.extra: list[tuple[Linear, Source]] = []
         self.done: set[int] = set(self.substitutes.values())
 
-    def run(self) -> Simplification:
-        """Propagate until nothing changes; return the result."""
-        queue = list(range(len(self.linear.residual)))
+    def run(self, stays_zero: Callable[[Simplifier], Mapping[int, Source]] | None = None) -> Simplification:
+        """Propagate until nothing changes; return the result.
+
+        Parameters
+        ----------
+        stays_zero : callable, optional
+            Returns the remaining unknowns that stay 0, each with a source that is used up.
+        """
+        self._propagate(range(len(self.linear.residual)))
+        if stays_zero is not None and (members := stays_zero(self)):
+            self._set_to_zero(members)
+            self._propagate(self.linear.update())
+        self.result.left = [(value, source) for value, source in self._settled(self.extra) if value[1]]
+        kept = self._settled([(value, Source(row)) for row, value in self.result.kept.items()])
+        self.result.kept = {source.row: value for value, source in kept if value[1]}
+        self.result.redundant += [source.row for value, source in kept if not value[1]]
+        return self.result
+
+    def _propagate(self, queue: Iterable[int]) -> None:
+        """Visit residuals, and those whose value changes, until nothing changes."""
         while queue:
             for row in sorted(set(queue)):
                 if row not in self.done:
@@ -108,11 +125,19 @@ class Simplifier:
             # Later eliminations may enable these derivatives to remove an unknown.
             self.extra = left
             queue = self.linear.update()
-        self.result.left = [(value, source) for value, source in self._settled(self.extra) if value[1]]
-        kept = self._settled([(value, Source(row)) for row, value in self.result.kept.items()])
-        self.result.kept = {source.row: value for value, source in kept if value[1]}
-        self.result.redundant += [source.row for value, source in kept if not value[1]]
-        return self.result
+
+    def _set_to_zero(self, members: Mapping[int, Source]) -> None:
+        """Set whole derivative chains to 0, and use up the sources."""
+        used = set(members.values())
+        self.extra = [(value, source) for value, source in self.extra if source not in used]
+        for unknown, source in members.items():
+            self.linear.solve(unknown, (0.0, ()))
+            self.result.eliminated_by[unknown] = source
+            self.up[unknown] = self.down[unknown] = -1
+            if not source.unknowns:
+                self.result.used[source.row] = unknown
+                self.result.kept.pop(source.row, None)
+                self.done.add(source.row)
 
     def _settled(self, values: list[tuple[Linear, Source]]) -> list[tuple[Linear, Source]]:
         """Return values in remaining unknowns, and record contradictions."""

@@ -143,11 +143,13 @@ def linearize(
     A warning is given if the point is neither at rest nor in steady rotation, and if the matrices change as a cyclic
     coordinate turns, so that the linear system is periodic.
 
+    Unknowns that stay 0 in a run, such as the motion of a planar machine out of its plane, are part of the linear system.
+
     Discrete variables keep their values: a sampled controller does not act. A warning names functions that are not called.
     """
     how = effective_settings(model, parameters, {"initial": initial})["initial"]
     check_number("time", time)
-    compiled, p = ready(model, at_time(model, parameters, inputs, time))
+    compiled, p = ready(model, at_time(model, parameters, inputs, time), full=True)
     problem = Problem(compiled, p)
     at = first_point(problem, time, how)
     if owners := compiled.guards.calls.owners(pure=False):

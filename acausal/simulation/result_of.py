@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel, checked_model, ready
@@ -14,8 +15,9 @@ from acausal.language.component import Component
 from acausal.locks import exclusive
 from acausal.result import Result
 from acausal.result.from_arrays import checked_columns, checked_outputs, checked_times, snapshot_of
-from acausal.result.lookup import find, names
+from acausal.result.lookup import Quantity, find, names
 from acausal.solve.results.external import evaluator_of
+from acausal.symbols import scalars
 from acausal.units import parse
 
 
@@ -87,6 +89,9 @@ def result_of(
     known = set(names(compiled.tree))
     columns = checked_columns(times, values, known)
     own = {path: _fitting(compiled, path, *column) for path, column in columns.items() if path in known}
+    if compiled.reduced.flat.stays_zero and _contradicts_zeros(compiled, own):
+        compiled, p = ready(model, parameters, full=True)
+        own = {path: _fitting(compiled, path, *columns[path]) for path in own}
     beside = {path: column for path, column in columns.items() if path not in known}
     shown = checked_outputs(outputs, [*known, *beside]) or compiled.outputs
     with np.errstate(all="ignore"):
@@ -94,6 +99,16 @@ def result_of(
     counts = {"equations_reduced": compiled.nx + compiled.nz, "states": compiled.nx, "algebraic": compiled.nz}
     more = snapshot_of(beside, times.size) if beside else None
     return Result(times, evaluate, compiled.tree, shown, counts | stats, title or type(compiled.tree).__name__, more)
+
+
+def _contradicts_zeros(compiled: CompiledModel, own: Mapping[str, tuple[Quantity, np.ndarray]]) -> bool:
+    """Return whether a variable that is 0 in the model has other values, so that they are those of the full model."""
+    was, becomes = compiled.reduced.flat.unknowns.eliminated
+    for quantity, values in own.values():
+        entries = scalars(ca.substitute([quantity.column], [was], [becomes])[0])
+        if any(entry.is_zero() and values[:, k].any() for k, entry in enumerate(entries)):
+            return True
+    return False
 
 
 def _fitting(compiled: CompiledModel, path: str, given: Any, values: np.ndarray) -> Any:

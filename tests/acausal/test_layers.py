@@ -24,7 +24,7 @@ BASE = {
 }
 MAY = {
     "language": BASE | {"core"},
-    "flatten": BASE | {"language"},
+    "flatten": BASE | {"language", "structure"},
     "structure": {"errors"},
     "reduce": BASE | {"language", "flatten", "structure"},
     "core": BASE,

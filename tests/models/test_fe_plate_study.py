@@ -173,7 +173,7 @@ class Point(FEPlate):
         ({}, {"dt": 1e-3}, "the limit is 2.91"),
         ({}, {"variant": "best"}, "variant must be one of"),
         ({"body.coriolis": False}, {}, "need centrifugal and Coriolis forces"),
-        (Two, {}, "values of 13 of 46 states are missing: `other"),
+        (Two, {}, "values of 1 of 34 states are missing: `other"),
         (Point, {}, "not point gravity"),
         (Held, {"loads": ()}, "has its reference frame at `hinge`"),
     ],

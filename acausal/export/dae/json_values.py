@@ -48,7 +48,7 @@ FIELDS: dict[type, str] = {
     FlatParameters: "symbols names values weighing limits bound structural_zeros tables raised",
     FlatDiscontinuities: "switches guards discretes continuous promises laws kinks",
     FlatLoops: "cuts closures folded",
-    FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts",
+    FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts stays_zero",
     Guard: "condition origin jumps at_start",
     Jump: "target value discrete",
     Law: "speed rate limit places origin",
