@@ -208,16 +208,6 @@ def test_flexible_bodies_lose_their_modes_across():
     assert set(plate.report["stays_zero"]) >= {"body.ref.r_0[1]", "body.ref.Q[0]", "body.ref.R.w[0]", "body.q[1]"}
 
 
-class Parametrised(Arm):
-    """An offset across that is 0, but a symbol if it is free."""
-
-    offset: Scalar = parameter("offset across", unit="m", default=0.0)
-
-    @ac.part
-    def body(self):
-        return Body(m=0.5, r_CM=(0.4, 0, self.offset), I=INERTIA)
-
-
 def test_parameters_stay_changeable():
     compiled = ac.compile(Arm())
     light, heavy = (ac.simulate(compiled, parameters={"body.m": m}, stop_time=0.5) for m in (0.5, 5.0))
@@ -252,3 +242,10 @@ def test_a_rod_without_inertia_about_its_axis_is_no_member():
         body = BodyRod(r=(0.8, 0, 0), m=0.5)
 
     agree(Rod(), members=ACROSS)
+
+
+def test_a_hinge_across_that_sticks_keeps_its_states():
+    class Sticking(Arm):
+        across = Revolute(n=(0, 1, 0), friction="stiction", tau_dry=0.5, **REST)
+
+    assert "across.phi" in ac.compile(Sticking()).states
