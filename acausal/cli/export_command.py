@@ -40,6 +40,9 @@ def export(
     dae: Annotated[
         str | None, typer.Option(metavar="FILE", help="Write the equations, for `acausal.load_dae` and other programs.")
     ] = None,
+    full: Annotated[
+        bool, typer.Option("--full", help="Keep unknowns that stay 0, such as motion out of the plane of a machine.")
+    ] = False,
     quiet: Quiet = False,
 ) -> None:
     """Write a scene as a file that other tools simulate."""
@@ -53,11 +56,11 @@ def export(
         if fmu is not None:
             from acausal.export import export_fmu
 
-            export_fmu(compiled, fmu, fmi_version=version, platforms=names, free=tuple(free or ()))
+            export_fmu(compiled, fmu, fmi_version=version, platforms=names, free=tuple(free or ()), full=full)
         elif dae is not None:
             from acausal.export import export_dae
 
-            export_dae(compiled, dae)
+            export_dae(compiled, dae, full=full)
         if not quiet:
             about = f": FMI {version}.0, for {', '.join(enclosed.values())}" if enclosed else ""
             typer.echo(f"wrote {shown_name(fmu or dae)}{about}")

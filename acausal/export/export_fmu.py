@@ -14,7 +14,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler import CompiledModel, compile, ready
+from acausal.compiler import CompiledModel, compile
 from acausal.compiler.runtime import VERSION
 from acausal.core.model_file import framed
 from acausal.errors import ExportError
@@ -22,6 +22,7 @@ from acausal.export.archive import check_fmu, source_names, write_fmu
 from acausal.export.beginning import begin
 from acausal.export.content import Content, watched
 from acausal.export.description import Description, Variable, is_solved
+from acausal.export.full_model import exported
 from acausal.export.function_calls import refuse_calls
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
@@ -52,6 +53,7 @@ def export_fmu(
     stop_time: float | None = None,
     tolerance: float | None = None,
     initial: str | None = None,
+    full: bool = False,
 ) -> None:
     """Write a model as a Functional Mock-up Unit, for Model Exchange and Co-Simulation.
 
@@ -71,6 +73,8 @@ def export_fmu(
         Parameters that remain in the equations although they are 0.
     stop_time, tolerance, initial : optional
         Default experiment and kind of initialisation, as of `simulate`. The stop time is 1 s if the model declares none.
+    full : bool
+        Whether unknowns that stay 0 are states, which importers can set; otherwise they are constants.
 
     Raises
     ------
@@ -78,7 +82,7 @@ def export_fmu(
         If the file cannot be written, or the model cannot be exported.
     """
     check_fmu(path, fmi_version, platforms)
-    compiled, p = _freed(model, parameters, free) if free else ready(model, parameters)
+    compiled, p = _freed(model, parameters, free, full) if free else exported(model, parameters, full)
     refuse_calls(compiled)
     own = effective_settings(compiled, None, {"stop_time": stop_time})["stop_time"]
     asked = {"stop_time": 1.0 if own is None else own, "tolerance": tolerance, "initial": initial, "accuracy": None}
@@ -132,16 +136,16 @@ def _described(content: Content, table: Table, variables: tuple[Variable, ...], 
 
 
 def _freed(
-    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, free: Sequence[str]
+    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, free: Sequence[str], full: bool
 ) -> tuple[CompiledModel, np.ndarray]:
     """Compile a model with some parameters in its equations although they are 0."""
     if isinstance(model, Component):
-        compiled = compile(model, parameters, free=free)
+        compiled = compile(model, parameters, free=free, full=full)
     elif model.source is None:
         raise ExportError("parameters are kept free during compilation: pass the model, not a compiled one.")
     else:
-        source = model.source
-        compiled = compile(source.model, {**(source.parameters or {}), **(parameters or {})}, free=free)
+        source, kept = model.source, {"full": True} if full else {}
+        compiled = source.make(source.model, {**source.parameters, **(parameters or {})}, free=free, **kept)
     return compiled, compiled.parameter_values(None)
 
 

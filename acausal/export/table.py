@@ -169,8 +169,14 @@ class Table:
         state = {s.element_hash(): k for k, s in enumerate(scalars(r.x))}
         own = {(r.p[k].element_hash(), name) for k, name in enumerate(r.flat.parameters.names)}
         moving = {s.element_hash() for s in [*scalars(ca.vertcat(r.x, r.z)), time.sx]}
+        zeros = set(r.flat.stays_zero)
         for one in seen:
             key = one.expression.element_hash()
+            if not one.output and one.name in zeros:
+                self.shown.append(one.expression)
+                place = self.first_shown + len(self.shown) - 1
+                yield Variable(one.name, place, "local", "constant", "exact", one.unit, 0.0, one.description)
+                continue
             if not one.output and (one.expression.is_constant() or (key, one.name) in own or one.name == "time"):
                 continue
             if not one.output and key in state:

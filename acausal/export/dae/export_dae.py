@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler import CompiledModel, ready
+from acausal.compiler import CompiledModel
 from acausal.compiler.requirements import Stated, statements
 from acausal.errors import ExportError
 from acausal.export.dae import component_tree, dae_archive
@@ -18,6 +18,7 @@ from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.dae_listing import listing
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.json_values import encoded
+from acausal.export.full_model import exported
 from acausal.export.function_calls import refuse_calls
 from acausal.export.local_columns import local_columns
 from acausal.language.call_arguments import checked_arguments
@@ -36,7 +37,11 @@ SHARED = {"time": time, "initial": initial, "feedback": feedback}
 @checked_arguments
 @exclusive
 def export_dae(
-    model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None
+    model: Component | CompiledModel,
+    path: str | Path,
+    *,
+    parameters: Mapping[str, Any] | None = None,
+    full: bool = False,
 ) -> None:
     """Write a model as an open DAE, an archive for `load_dae` and other programs.
 
@@ -51,6 +56,8 @@ def export_dae(
         Name of the file, which is written atomically.
     parameters : mapping of str to value, optional
         Values by path for the file.
+    full : bool
+        Whether unknowns that stay 0 remain.
 
     Raises
     ------
@@ -58,7 +65,7 @@ def export_dae(
         If the file cannot be written, or the model contains something that the format cannot represent.
     """
     check_writable(path)
-    compiled, p = ready(model, parameters)
+    compiled, p = exported(model, parameters, full)
     refuse_calls(compiled)
     tables = getattr(p, "tables", {})
     own = replace(compiled.reduced.flat.parameters, tables=tables)

@@ -117,6 +117,9 @@ def test_scenes_simulate_identically(scene, tmp_path):
     reports = [{k: plain(v) for k, v in m.report.items() if k != "seconds"} for m in (own, loaded)]
     assert reports[0] == reports[1]
     assert plain(own.summary()).partition("seconds")[0] == loaded.summary().partition("seconds")[0]
+    if own.report["stays_zero"]:  # parts of the linear system that a loaded model has only if the file has them
+        own = ac.compile(SCENES[scene](), full=True)
+        loaded = saved(own, tmp_path / "full.dae")
     a, b = (ac.linearize(m) for m in (own, loaded))
     assert (a.states, a.inputs, a.outputs) == (b.states, b.inputs, b.outputs)
     assert [getattr(a, n).tobytes() for n in "ABCD"] == [getattr(b, n).tobytes() for n in "ABCD"]
