@@ -30,6 +30,7 @@ from acausal.flatten.origin import Origin
 from acausal.flatten.part_constraints import rates
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
 from acausal.flatten.stays_zero import StaysZero, stays_zero
+from acausal.flatten.zero_block import zero_block
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import picked, scalars, stacked
 
@@ -127,6 +128,7 @@ class Assembly:
             tree=self.raw.build.root,
             counts=self._counts(left),
             stays_zero=by_preference(self.raw, self.lower, left.vanishing.differentiated),
+            zero_block=zero_block(self.raw, self.lower, left.vanishing, self.residuals, self.symbols),
         )
 
     def _simplified(self) -> _Remaining:

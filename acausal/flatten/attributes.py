@@ -129,12 +129,17 @@ def by_preference(raw: CollectedStatements, lower: list[int], unknowns: Collecti
     """Return the names of unknowns, those preferred as states first."""
     if not unknowns:
         return ()
+    names, preferred = unknown_names(raw, lower), [a.declared.select > 0 for a in raw.arrays for _ in a.names]
+    preferred += [False] * len(lower)
+    return tuple(names[k] for k in sorted(unknowns, key=lambda k: (not preferred[k], k)))
+
+
+def unknown_names(raw: CollectedStatements, lower: list[int]) -> list[str]:
+    """Return the names of all unknowns, variables before derivatives."""
     names = [name for array in raw.arrays for name in array.names]
-    preferred = [array.declared.select > 0 for array in raw.arrays for _ in array.names]
     for k in lower:
         names.append(f"der({names[k]})")
-        preferred.append(False)
-    return tuple(names[k] for k in sorted(unknowns, key=lambda k: (not preferred[k], k)))
+    return names
 
 
 def weighing(raw: CollectedStatements) -> tuple[str, ...]:

@@ -249,6 +249,28 @@ class FlatLoops:
 
 
 @dataclass(frozen=True)
+class ZeroBlock:
+    """Equations that vanish with the unknowns that stay 0, and depend on them alone to first order.
+
+    Parameters
+    ----------
+    residuals : casadi.SX
+        The equations, a column, as many as derivative chains.
+    symbols : casadi.SX
+        The unknowns, a column.
+    names : tuple of str
+        Their names.
+    derivative : tuple of int
+        Position of the derivative of each, or -1.
+    """
+
+    residuals: ca.SX
+    symbols: ca.SX
+    names: tuple[str, ...]
+    derivative: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class FlatModel:
     """A model as one list of scalar unknowns and one list of scalar equations.
 
@@ -266,6 +288,8 @@ class FlatModel:
         Numbers of equations and unknowns before and after simplification.
     stays_zero : tuple of str
         Variables with a derivative that were eliminated as they stay 0 for ever, with their derivatives that have one.
+    zero_block : callable, optional
+        Returns their equations.
     """
 
     unknowns: FlatUnknowns
@@ -278,3 +302,4 @@ class FlatModel:
     tree: Component
     counts: Mapping[str, int]
     stays_zero: tuple[str, ...] = ()
+    zero_block: Callable[[], ZeroBlock] | None = None

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import heapq
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import casadi as ca
 
@@ -91,21 +91,7 @@ class LinearValues:
 
     def resolve(self, value: Linear) -> Linear:
         """Return a value with solved unknowns replaced, along chains of aliases."""
-        c0, terms = value
-        for unknown, _ in terms:
-            if unknown in self.solved:
-                break
-        else:
-            return value
-        result: Linear | None = (c0, ())
-        for unknown, c in terms:
-            term: Linear = (0.0, ((unknown, c),))
-            while term[1] and term[1][0][0] in self.solved:
-                known = scale(self.solved[term[1][0][0]], term[1][0][1])
-                term = (term[0] + known[0], known[1])
-            result = add(result, term, 1.0)
-            assert result is not None
-        return result
+        return resolved(value, self.solved)
 
     def solve(self, unknown: int, solution: Linear) -> None:
         """Record the value of an unknown, and redirect its aliases."""
@@ -134,6 +120,25 @@ class LinearValues:
                     queued.add(user)
                     heapq.heappush(queue, user)
         return changed
+
+
+def resolved(value: Linear, solved: Mapping[int, Linear]) -> Linear:
+    """Return a value with solved unknowns replaced, along chains of aliases."""
+    c0, terms = value
+    for unknown, _ in terms:
+        if unknown in solved:
+            break
+    else:
+        return value
+    result: Linear | None = (c0, ())
+    for unknown, c in terms:
+        term: Linear = (0.0, ((unknown, c),))
+        while term[1] and term[1][0][0] in solved:
+            known = scale(solved[term[1][0][0]], term[1][0][1])
+            term = (term[0] + known[0], known[1])
+        result = add(result, term, 1.0)
+        assert result is not None
+    return result
 
 
 def scale(value: Linear, factor: float) -> Linear:

@@ -20,14 +20,38 @@ from acausal.structure.matching import maximum_matching
 
 @dataclass(frozen=True)
 class StaysZero:
-    """The unknowns that stay 0, each with the equation that its derivative chain is matched with.
+    """The unknowns that stay 0.
 
-    `differentiated` are those with a derivative, `conditions` the conditions at the start that they satisfy, by number.
+    Attributes
+    ----------
+    chains : list of list of int
+        Their derivative chains, each from the lowest unknown on.
+    sources : list of Source
+        The equation that each chain is matched with.
+    links : mapping of Source to Linear
+        Values of those of these that are derivatives.
+    conditions : frozenset of int
+        Numbers of the conditions at the start that they satisfy.
+    solved : dict of int to Linear
+        Values of the unknowns that were removed before.
     """
 
-    members: Mapping[int, Source] = field(default_factory=dict)
-    differentiated: tuple[int, ...] = ()
+    chains: list[list[int]] = field(default_factory=list)
+    sources: list[Source] = field(default_factory=list)
+    links: Mapping[Source, Linear] = field(default_factory=dict)
     conditions: frozenset[int] = frozenset()
+    solved: dict[int, Linear] = field(default_factory=dict)
+
+    @property
+    def members(self) -> dict[int, Source]:
+        """The source of each unknown."""
+        pairs = zip(self.chains, self.sources, strict=True)
+        return {k: source for chain, source in pairs for k in chain}
+
+    @property
+    def differentiated(self) -> list[int]:
+        """The unknowns with a derivative."""
+        return [k for chain in self.chains for k in chain[:-1]]
 
 
 def stays_zero(
@@ -51,9 +75,8 @@ def stays_zero(
         starts = conditions()
         values = zero_values(starts, search.bits_of_unknowns(), range(len(starts.op)))
         if not search.remove(search.undetermined_at_start(starts, values, balanced)):
-            satisfied = (k for k, node in enumerate(starts.residual) if _vanishes(values, node))
-            members = search.members_by_source(balanced)
-            return StaysZero(members, tuple(k for k in members if simplifier.up[k] >= 0), frozenset(satisfied))
+            satisfied = frozenset(k for k, node in enumerate(starts.residual) if _vanishes(values, node))
+            return search.found(balanced, satisfied)
     return StaysZero()
 
 
@@ -196,11 +219,9 @@ class _Search:
         free = (members[k] for k in decompose(rows, len(members)).under.variables)
         return {self.bottom[k] for k in free if up[k] >= 0}
 
-    def members_by_source(self, balanced: _Balanced) -> dict[int, Source]:
-        """Return the source of each member."""
+    def found(self, balanced: _Balanced, conditions: frozenset[int]) -> StaysZero:
+        """Return the chains, each with an equation that it is matched with."""
         matching = maximum_matching(balanced.rows, len(self.chains))
-        return {
-            k: balanced.sources[row]
-            for row, chain in zip(matching.equation_of, self.chains.values(), strict=True)
-            for k in chain
-        }
+        sources = [balanced.sources[row] for row in matching.equation_of]
+        links = {source: value for value, source in self.simplifier.extra if source in sources}
+        return StaysZero(list(self.chains.values()), sources, links, conditions, dict(self.linear.solved))

@@ -19,6 +19,7 @@ from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.signals import Signals
 from acausal.solve.checks.constraint_drift import first_violation, refuse_constraint_drift
+from acausal.solve.checks.growth import growth_warnings
 from acausal.solve.checks.loop_drift import loop_drift
 from acausal.solve.checks.mobility import mobility_warnings
 from acausal.solve.checks.smoothness import smoothness_warnings
@@ -268,6 +269,7 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     evaluate = Evaluator(output, integrator.consistent)
     found = validity_warnings(evaluate) + smoothness_warnings(integrator, evaluate)
     found += mobility_warnings(integrator.problem, done.begun.point, done.begun.redundancy.redundant)
+    found += growth_warnings(integrator.problem, done.begun.point, float(plan.times[-1] - plan.times[0]))
     found += loop_drift(integrator.consistent, rows) + done.course.idle()
     stats = stats.changed(doubts=[*found, *_loosened(integrator)])
     if energy:

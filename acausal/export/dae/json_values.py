@@ -36,8 +36,8 @@ from acausal.structure.coordinate_projection import Constrained, Constraint, Pro
 from acausal.structure.system import System
 from acausal.units import BASES, Dimension
 
-# Omitted fields: `eliminated_by` and `repeats`, which serve messages about models that do not compile; `tree`, which is written
-# separately.
+# Omitted fields: `eliminated_by` and `repeats`, which serve messages about models that do not compile; `zero_block`; `tree`,
+# which is written separately.
 FIELDS: dict[type, str] = {
     Origin: "path kind where text",
     Initial: "residual text origin",
