@@ -76,7 +76,7 @@ def compile(
     settable = Settable(flat)
     settable.values(None)  # a parameter out of its limits, such as a length of 0, is reported before its consequences
     lap("flatten")
-    flat, plan, linear = _analysed(flat, model, parameters)
+    flat, plan, linear = _analysed(flat, model, parameters, free)
     lap("analyse")
     reduced = split_time_comparisons(reduce(flat, plan, linear))
     lap("reduce")
@@ -91,13 +91,21 @@ def compile(
     return compiled
 
 
-def _analysed(flat: FlatModel, model: Component, parameters: Mapping[str, Any]) -> tuple[FlatModel, Any, Any]:
-    """Return the model with hidden constraints, the plan of its reduction and its linear terms.
-
-    An error names parameters whose zeros leave the model incomplete.
-    """
+def _analysed(
+    flat: FlatModel, model: Component, parameters: Mapping[str, Any], free: Collection[str]
+) -> tuple[FlatModel, Any, Any]:
+    """Return the model with hidden constraints, the plan of its reduction and its linear terms."""
     try:
         return plan_of(flat)
+    except (UnbalancedModelError, StructurallySingularError):
+        _refuse_singular(flatten(model, parameters, free, full=True), model, parameters)
+        raise
+
+
+def _refuse_singular(flat: FlatModel, model: Component, parameters: Mapping[str, Any]) -> None:
+    """Raise the error of a singular model with all unknowns; it names parameters whose zeros leave the model incomplete."""
+    try:
+        plan_of(flat)
     except (UnbalancedModelError, StructurallySingularError) as error:
         what, _, why = str(error).partition("\n")
         if remedy := remedy_for_zeros(model, parameters, flat, error):

@@ -47,7 +47,7 @@ def remedy_for_zeros(
     parameters : mapping of str to value or None
         Values by path that replace those of the model.
     flat : FlatModel
-        The flattened model.
+        The flattened model, with all unknowns.
     error : AcausalError
         The structural error, raised while a StructuralSingularity was handled.
     """
@@ -57,7 +57,8 @@ def remedy_for_zeros(
     def lacking(*tried: str) -> float:
         """Return how many equations the model lacks with trial values of these, infinity if it rejects them."""
         try:
-            tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path].trial for path in tried}})
+            trials = {path: zeros[path].trial for path in tried}
+            tried_flat = flatten(model, {**(parameters or {}), **trials}, full=True)
             plan_of(tried_flat)
         except (UnbalancedModelError, StructurallySingularError) as error:
             return _lacking(error) or np.inf

@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.flatten.discontinuities import Guard, Law, Promise
 from acausal.flatten.origin import Origin
+from acausal.flatten.stays_zero import ZeroBlock
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.external import External
@@ -246,28 +247,6 @@ class FlatLoops:
     def of_parts(self) -> list[int]:
         """Positions of the constraints of parts among the closures."""
         return [k for k, closure in enumerate(self.closures) if closure.loop < 0]
-
-
-@dataclass(frozen=True)
-class ZeroBlock:
-    """Equations that vanish with the unknowns that stay 0, and depend on them alone to first order.
-
-    Parameters
-    ----------
-    residuals : casadi.SX
-        The equations, a column, as many as derivative chains.
-    symbols : casadi.SX
-        The unknowns, a column.
-    names : tuple of str
-        Their names.
-    derivative : tuple of int
-        Position of the derivative of each, or -1.
-    """
-
-    residuals: ca.SX
-    symbols: ca.SX
-    names: tuple[str, ...]
-    derivative: tuple[int, ...]
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
+import casadi as ca
+
 from acausal.flatten.linear_values import Linear, LinearValues
 from acausal.flatten.simplify import ZERO, Simplifier, Source
 from acausal.flatten.zero_values import ZeroValues, zero_values
@@ -52,6 +54,28 @@ class StaysZero:
     def differentiated(self) -> list[int]:
         """The unknowns with a derivative."""
         return [k for chain in self.chains for k in chain[:-1]]
+
+
+@dataclass(frozen=True)
+class ZeroBlock:
+    """Equations that vanish with the unknowns that stay 0, and depend on them alone to first order.
+
+    Parameters
+    ----------
+    residuals : casadi.SX
+        The equations, a column, as many as derivative chains.
+    symbols : casadi.SX
+        The unknowns, a column.
+    names : tuple of str
+        Their names.
+    derivative : tuple of int
+        Position of the derivative of each, or -1.
+    """
+
+    residuals: ca.SX
+    symbols: ca.SX
+    names: tuple[str, ...]
+    derivative: tuple[int, ...]
 
 
 def stays_zero(

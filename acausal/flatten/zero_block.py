@@ -9,9 +9,8 @@ import casadi as ca
 
 from acausal.flatten.attributes import unknown_names
 from acausal.flatten.collected_statements import CollectedStatements
-from acausal.flatten.flat_model import ZeroBlock
 from acausal.flatten.linear_values import expressions, resolved
-from acausal.flatten.stays_zero import StaysZero
+from acausal.flatten.stays_zero import StaysZero, ZeroBlock
 from acausal.symbols import picked
 
 

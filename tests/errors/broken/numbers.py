@@ -191,7 +191,7 @@ def linear_without_slope(repaired):
 
 def inertia_zero_later(repaired):
     class M(Model):
-        shaft = rotational.Inertia(J=1, phi=fixed(0), w=fixed(0))
+        shaft = rotational.Inertia(J=1, phi=fixed(0), w=fixed(1))
 
     ac.simulate(ac.compile(M()), parameters={"shaft.J": 2 if repaired else 0}, stop_time=0.1)
 
