@@ -66,8 +66,7 @@ def _growth(compiled: CompiledModel, numbers: bytes) -> Growth:
     entries = call(x, z, p, float(t[0]), constants, 0.0)[0]
     if not np.all(np.isfinite(entries)):
         return Growth(0.0)
-    J = np.zeros(shape)
-    J[rows, columns] = entries
+    J = scipy.sparse.csc_matrix((entries, (rows, columns)), shape=shape)
     rate, shares = growth_rate(J, derivative)
     lowest = np.setdiff1d(np.flatnonzero(derivative >= 0), derivative)
     largest = lowest[np.argsort(-shares[lowest])][:NAMED]
@@ -86,12 +85,12 @@ def _block(compiled: CompiledModel) -> tuple[Call, tuple, tuple[str, ...], np.nd
     return entries, (rows, columns, J.shape), block.names, np.array(block.derivative)
 
 
-def growth_rate(J: np.ndarray, derivative: np.ndarray) -> tuple[float, np.ndarray]:
+def growth_rate(J: scipy.sparse.csc_matrix, derivative: np.ndarray) -> tuple[float, np.ndarray]:
     """Return the largest growth rate of solutions of J v = 0, der(v[k]) = v[derivative[k]], and the shares of v in it.
 
     Parameters
     ----------
-    J : array, shape (m, n)
+    J : sparse matrix, shape (m, n)
         Equations.
     derivative : array of int, shape (n,)
         Place of the derivative of each entry of v, or -1.
@@ -103,15 +102,12 @@ def growth_rate(J: np.ndarray, derivative: np.ndarray) -> tuple[float, np.ndarra
     array, shape (n,)
         Relative to the typical sizes that the equations themselves give.
     """
-    n, still = J.shape[1], np.zeros(J.shape[1])
-    lower = np.flatnonzero(derivative >= 0)
+    still, lower = np.zeros(J.shape[1]), np.flatnonzero(derivative >= 0)
     upper = derivative[lower]
     J, size = _equilibrated(J)
-    Q, R, _ = scipy.linalg.qr(J.T, pivoting=True)
-    rank = int(np.sum(np.abs(np.diag(R)) > RANK * abs(R[0, 0]))) if J.size else 0
-    if rank < len(J) or n - rank != len(lower):
+    N = _solutions(J, lower)
+    if N is None or not len(lower):
         return 0.0, still
-    N = Q[:, rank:]
     B, C = N[lower], N[upper] * (size[upper] / size[lower])[:, None]
     length = np.maximum(np.linalg.norm(B, axis=1), np.linalg.norm(C, axis=1))[:, None]
     V = _consistent(B := B / length, C := C / length)
@@ -129,17 +125,41 @@ def growth_rate(J: np.ndarray, derivative: np.ndarray) -> tuple[float, np.ndarra
     return float(rates[k]), np.abs(N @ (V @ vectors[:, int(np.argmax(np.real(values)))]))
 
 
-def _equilibrated(J: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _equilibrated(J: scipy.sparse.csc_matrix) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
     """Return a matrix with rows and columns of maximum about 1 (Ruiz 2001), and the factors of the columns."""
-    size = np.ones(J.shape[1])
+    rows, columns, size = J.indices, np.repeat(np.arange(J.shape[1]), np.diff(J.indptr)), np.ones(J.shape[1])
+    entries = J.data.copy()
     for _ in range(POLICY.causes.balancing):
-        for axis in (1, 0):
-            most = np.sqrt(np.max(np.abs(J), axis=axis, keepdims=True, initial=0.0))
-            factor = 1 / np.where(most > 0, most, 1.0)
-            J = J * factor
-            if axis == 0:
-                size *= factor[0]
-    return J, size
+        for places, n in ((rows, J.shape[0]), (columns, J.shape[1])):
+            most = np.zeros(n)
+            np.maximum.at(most, places, np.abs(entries))
+            factor = 1 / np.sqrt(np.where(most > 0, most, 1.0))
+            entries *= factor[places]
+            if places is columns:
+                size *= factor
+    return scipy.sparse.csc_matrix((entries, J.indices, J.indptr), shape=J.shape), size
+
+
+def _solutions(J: scipy.sparse.csc_matrix, lower: np.ndarray) -> np.ndarray | None:
+    """Return a basis of the solutions of J v = 0, as many as entries have a derivative; None if there are more.
+
+    Highest derivatives and algebraic entries follow from the others, if no equation is a constraint on the others alone.
+    """
+    (m, n), highest = J.shape, np.setdiff1d(np.arange(J.shape[1]), lower)
+    if m != len(highest):
+        return None
+    try:
+        factors = scipy.sparse.linalg.splu(J[:, highest])
+        pivots = np.abs(factors.U.diagonal())
+    except RuntimeError:
+        pivots = np.zeros(1)
+    if np.min(pivots) > RANK * np.max(pivots):
+        N = np.zeros((n, len(lower)))
+        N[lower], N[highest] = np.eye(len(lower)), -factors.solve(J[:, lower].toarray())
+        return N
+    Q, R, _ = scipy.linalg.qr(J.toarray().T, pivoting=True)
+    pivots = np.abs(np.diag(R))
+    return Q[:, m:] if np.min(pivots) > RANK * np.max(pivots) else None
 
 
 def _consistent(B: np.ndarray, C: np.ndarray) -> np.ndarray:

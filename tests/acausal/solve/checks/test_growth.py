@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 import numpy as np
 import pytest
+import scipy
 
 import acausal as ac
 from acausal import connect, fixed
@@ -109,7 +111,7 @@ def _started(compiled: ac.CompiledModel) -> tuple[Problem, Point]:
     return problem, start(problem, 0.0, 1e-3, "guesses").point
 
 
-def pencil(stiffness: np.ndarray, damping: np.ndarray, constraints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def pencil(stiffness: np.ndarray, damping: np.ndarray, constraints: np.ndarray) -> tuple[Any, np.ndarray]:
     """M = 1: x'' + D x' + K x = G' f, G x = 0, as equations of v = (x, x', x'', f)."""
     n, m = len(stiffness), len(constraints)
     J = np.block(
@@ -119,7 +121,7 @@ def pencil(stiffness: np.ndarray, damping: np.ndarray, constraints: np.ndarray) 
         ]
     )
     derivative = np.concatenate([np.arange(n, 3 * n), np.full(n + m, -1)])
-    return J, derivative
+    return scipy.sparse.csc_matrix(J), derivative
 
 
 def rate(K, D=None, G=None) -> float:
