@@ -1,7 +1,7 @@
 """Machine components: joints, bodies, forces and drives; drive trains are in `components.rotational`."""
 
 from components import constraints, contact, rotational, sensors, thermal, translational
-from components.beams import FlexibleBeam, SubstructuredBeam
+from components.beams import Circle, FlexibleBeam, Rectangle, Section, SubstructuredBeam, Tube
 from components.bevel_gear_1d import BevelGear1D
 from components.body import Body
 from components.body_box import BodyBox
@@ -84,6 +84,7 @@ __all__ = [
     "BodyRod",
     "BodyShape",
     "Bushing",
+    "Circle",
     "ConstantVelocityJoint",
     "Cylindrical",
     "Damper",
@@ -114,6 +115,7 @@ __all__ = [
     "PointOnCurve",
     "Prismatic",
     "RackAndPinion",
+    "Rectangle",
     "RelativeOrientation",
     "Revolute",
     "RevolutePlanarLoopConstraint",
@@ -124,6 +126,7 @@ __all__ = [
     "Rope",
     "Rotor1D",
     "ScrewJoint",
+    "Section",
     "Spherical",
     "SphericalSpherical",
     "Spring",
@@ -133,6 +136,7 @@ __all__ = [
     "Torque",
     "TranslationalFlange",
     "TriaxialSpring",
+    "Tube",
     "TwoFlanges",
     "TwoFrameBody",
     "TwoFrames",

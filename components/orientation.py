@@ -73,6 +73,13 @@ def resolve2(R: Any, v: Any) -> Any:
     return R.T @ v
 
 
+def axis_matrix(n: Any, phi: Any) -> Any:
+    """Return the rotation matrix of a rotation by the angle phi in rad about the numerical unit vector n, shape (3, 3)."""
+    outer = np.outer(n, n)
+    cross_n = np.cross(np.eye(3), n)  # skew(n)
+    return outer + (np.eye(3) - outer) * cos(phi) - cross_n * sin(phi)
+
+
 def planar_rotation(n: Any, phi: Any) -> RelativeOrientation:
     """Rotate by the angle phi about the axis n.
 
@@ -83,16 +90,7 @@ def planar_rotation(n: Any, phi: Any) -> RelativeOrientation:
     phi : Expr
         Angle in rad.
     """
-    outer = np.outer(n, n)
-    cross_n = np.cross(np.eye(3), n)  # skew(n)
-    T = outer + (np.eye(3) - outer) * cos(phi) - cross_n * sin(phi)
-    return RelativeOrientation(T, n * der(phi))
-
-
-def planar_matrix(phi: Any) -> Any:
-    """Rotation matrix of a rotation by the angle phi about z, for results without rates."""
-    c, s = cos(phi), sin(phi)
-    return as_expr([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    return RelativeOrientation(axis_matrix(n, phi), n * der(phi))
 
 
 def fixed_rotation(T: np.ndarray) -> RelativeOrientation:

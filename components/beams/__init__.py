@@ -1,6 +1,7 @@
 """Flexible beams: finite elements in a floating frame, and chains of such frames for large deflections."""
 
 from components.beams.flexible_beam import FlexibleBeam
+from components.beams.sections import Circle, Rectangle, Section, Tube
 from components.beams.substructured_beam import SubstructuredBeam
 
-__all__ = ["FlexibleBeam", "SubstructuredBeam"]
+__all__ = ["Circle", "FlexibleBeam", "Rectangle", "Section", "SubstructuredBeam", "Tube"]

@@ -6,32 +6,63 @@ from typing import Any, ClassVar
 
 from acausal import Scalar, effect, observed, parameter, sqrt, structural
 from components.beams.range import beam_range
-from components.beams.tube import tube
+from components.beams.section_values import EQUIVALENT, of_section
+from components.beams.shape import tube
 from components.frame import TwoFrames
 from components.orientation import resolve2
 
 
 class Beam(TwoFrames):
-    """Base of straight beams along x of frame_a with bending in the xy plane."""
+    """Base of straight beams along x of frame_a."""
 
     length: Scalar = parameter("length", unit="m", positive=True)
-    E: Scalar = parameter("modulus of elasticity", unit="Pa", positive=True)
-    rho: Scalar = parameter("density", unit="kg/m3", positive=True)
-    A: Scalar = parameter("area of the section", unit="m2", positive=True)
-    J: Scalar = parameter("second moment of area for bending in xy", unit="m4", positive=True)
-    J_y: Scalar = parameter(
-        "second moment of area about y",
+    section: Any = structural(
+        "cross-section",
+        default=None,
+        doc="Rectangle, Circle, Tube or Section, or a function of x / length that returns one, for taper and pre-twist; "
+        "without it, A and J.",
+    )
+    E: Scalar = parameter(
+        "modulus of elasticity", unit="Pa", default=lambda s: of_section(s, "E"), positive=True, doc=EQUIVALENT
+    )
+    nu: Scalar = parameter("Poisson's ratio", unit="1", default=0.3)
+    G: Scalar = parameter(
+        "shear modulus",
+        unit="Pa",
+        default=lambda s: of_section(s, "G"),
+        positive=True,
+        doc="E / (2 (1 + nu)) if not given.",
+    )
+    rho: Scalar = parameter(
+        "density", unit="kg/m3", default=lambda s: of_section(s, "rho"), positive=True, doc=EQUIVALENT
+    )
+    A: Scalar = parameter("area of the section", unit="m2", default=lambda s: of_section(s, "A"), positive=True)
+    J: Scalar = parameter(
+        "second moment of area about z, for bending in xy",
         unit="m4",
-        default=lambda s: s.J,
-        minimum=0,
-        doc="Enters the inertia about the beam axis only; J if not given.",
+        default=lambda s: of_section(s, "J"),
+        positive=True,
+    )
+    J_y: Scalar = parameter(
+        "second moment of area about y, for bending in xz",
+        unit="m4",
+        default=lambda s: of_section(s, "J_y"),
+        positive=True,
+        doc="J if not given, without a section.",
+    )
+    J_t: Scalar = parameter(
+        "torsion constant",
+        unit="m4",
+        default=lambda s: of_section(s, "J_t"),
+        positive=True,
+        doc="J + J_y if not given, without a section: exact for circles and tubes only.",
     )
     torsional_inertia: Scalar = parameter(
         "moment of inertia about the beam axis",
         unit="kg.m2",
-        default=lambda s: s.rho * (s.J + s.J_y) * s.length,
+        default=lambda s: of_section(s, "torsional_inertia"),
         minimum=0,
-        doc="rho (J + J_y) length if not given.",
+        doc="Spread evenly; rho (J + J_y) length if not given.",
     )
     reference: str = structural(
         "reference frame",
@@ -87,8 +118,19 @@ class Beam(TwoFrames):
         choices=("dynamic", "quasi_static", "none"),
         doc="dynamic: with axial vibrations; quasi_static: proportional to the axial force, without inertia; none: inextensible.",
     )
-    bending: bool = effect("bending in the xy plane", default=True, doc="False leaves axial deformation only.")
-    rotary_inertia: bool = effect("rotary inertia of the sections", default=False, doc="rho J per unit length.")
+    bending: str = effect(
+        "bending",
+        default="both",
+        choices=("both", "xy", "xz", "none"),
+        doc="both: in both planes; xy, xz: in one plane, rigid across it; none: rigid in bending.",
+    )
+    torsion: bool = effect("torsion", default=True, doc="Saint-Venant torsion about the axis; False: rigid in torsion.")
+    shear: bool = effect("shear", default=False, doc="Timoshenko's shear deformation, for stocky beams.")
+    rotary_inertia: bool = effect(
+        "rotary inertia of the sections",
+        default=False,
+        doc="Sections as rigid discs, with gyroscopic moments; rho J per unit length.",
+    )
     centrifugal: bool = effect(
         "centrifugal forces of the deformation",
         default=True,
@@ -102,7 +144,7 @@ class Beam(TwoFrames):
     geometric_stiffness: bool = effect(
         "geometric (second-order) stiffness",
         default=False,
-        doc="Shortening of the axis by its slope: axial tension stiffens the beam, compression softens or buckles it.",
+        doc="Shortening of the axis by its slope, and moments on it: axial tension stiffens the beam, compression softens or buckles it.",
     )
     damping: bool = effect("Rayleigh damping by alpha and beta", default=True)
     weight: bool = effect("weight", default=True)
@@ -115,7 +157,7 @@ class Beam(TwoFrames):
         return [self]
 
     def validity(self):
-        if self.bending and self.check_range:
+        if self.check_range:
             yield from beam_range(self, self.frames)
 
     def shapes(self):

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from acausal import as_expr, cross
-from components.orientation import planar_matrix
+from components.beams.beam_motion import BeamMotion
 
 
 def section_loads(beam: Any) -> list[tuple[Any, Any]]:
@@ -21,24 +20,24 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
     beam : FlexibleBeam
         The beam.
     """
-    motion, ref, b = beam._motion(), beam.ref, beam.frame_b
-    (U, Ud, Udd), inertia, sections = motion, beam._inertia(motion), beam._sections(motion)
-    alpha, a = beam.alpha if beam.damping else 0.0, beam._acceleration(inertia)
-    R_b, r_b = planar_matrix(beam._strain.angle(U[-1])), beam._end(U)
-    force = R_b.T @ b.f
+    motion, ref, b = BeamMotion(beam), beam.ref, beam.frame_b
+    U, inertia, sections = motion.coordinates[0], motion.inertia, motion.sections
+    alpha, a = beam.alpha if beam.damping else 0.0, motion.acceleration()
+    T_b, r_b = motion.rotation(-1).matrix(), motion.end()
+    force = T_b.T @ b.f
     if beam.reference == "pinned":
         _, spin = inertia.deformation_momentum()
-        force += as_expr((0.0, alpha * spin / r_b[0], 0.0))
-    moment = R_b.T @ b.t + cross(r_b, force)
+        force += alpha / r_b[0] * as_expr((0.0, spin[2], -spin[1]))
+    moment = T_b.T @ b.t + cross(r_b, force)
     loads = []
     for k in range(beam.elements, -1, -1):
-        at = as_expr((k * beam._l + U[3 * k], U[3 * k + 1], 0.0))
+        at = motion.place(k, U)
         loads.append((force, moment - cross(at, force)))
         if k:
-            nodes, part = slice(3 * k - 3, 3 * k + 3), inertia.element(k - 1)
+            part = inertia.element(k - 1)
             own, about, _ = part.forces(a, ref.z, ref.R.w)
-            drag, turning = part.deformation_momentum()
-            turned = replace(sections, elements=1, I=sections.I / beam.elements, Ud=Ud[nodes], Udd=Udd[nodes])
+            turning, _ = sections.element(k - 1).forces(ref.z, ref.R.w)
+            drag, spin = part.deformation_momentum()
             force = force - own - alpha * drag
-            moment = moment - about - turned.moment(ref.z, ref.R.w) - as_expr((0.0, 0.0, alpha * turning))
+            moment = moment - about - turning - alpha * spin
     return loads[::-1]

@@ -1,213 +1,159 @@
-"""Strain of a beam: elastic and damping forces, and the shortening of the axis by its slope."""
+"""Strain of a beam in space: bending of its elements, and the shortening of the axis by its slope."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import sqrt
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from acausal import as_expr
+from components.beams.nodes import Nodes, along_nodes, first, last, to_first, to_last
+from components.beams.pair import Pair
+from components.beams.stiffness import Stiffness
+
+Motion = tuple[Any, Any, Any]  # a quantity and its first two derivatives
 
 
 class Bend(NamedTuple):
-    """Bending of an element: chord d = v_2 - v_1, symmetric q = l (theta_1 - theta_2), r = 2 d - l (theta_1 + theta_2), in m.
+    """Bending of the elements in xy and xz, in m.
 
-    With eta from 1 at the first node to -1 at the second one, l v' = d + eta q / 2 + (1 - 3 eta^2) r / 4 and
-    l^2 v'' = 3 eta r - q: these modes are orthogonal in the integrals of v'^2 and of v''^2.
+    d = v_2 - v_1, q = l (v_1' - v_2'), r = 2 d - l (v_1' + v_2'), and likewise for w. With s from -1 at the first node to 1
+    at the second one, l v' = d - s q / 2 + (1 - 3 s^2) r / 4 and l^2 v'' = -q - 3 s r: these modes are orthogonal in the
+    integrals of v'^2 and of v''^2. With shear, r is the part by bending.
     """
 
-    d: Any
-    q: Any
-    r: Any
+    d: Pair
+    q: Pair
+    r: Pair
+
+    def plus(self, other: Bend) -> Bend:
+        """Return the sum."""
+        return Bend(*(a.plus(b) for a, b in zip(self, other, strict=True)))
 
 
 @dataclass(frozen=True)
 class Strain:
-    """Strain of N elements with nodal coordinates U = (u, v, l theta) in m.
+    """Strain of N elements in space.
 
-    With `second_order`, the slope v' = sin(phi) at arc length x shortens the projection on the axis by
-    f = 1 - cos(phi) = v'^2 / 2 + v'^4 / 8 per unit length, and the curvature is v'' / cos(phi). The axial strain of an
-    element is the mean of u' + f, because a linear u cannot balance f pointwise (membrane locking). An axial bubble
-    c xi (1 - xi), with c such that the first moment of u' + v'^2 / 2 vanishes, balances the linear part of f. The strain
-    energy is the sum of N^2 l / (2 E A) and of E J v''^2 (1 + v'^2) / 2, so that axial forces N act on the slopes.
+    With `second_order`, the unit tangent (sqrt(1 - v'^2 - w'^2), v', w') at arc length x shortens the projection on the
+    axis by f = (v'^2 + w'^2) / 2 + (v'^2 + w'^2)^2 / 8 per unit length. The axial strain of an element is the mean of
+    u' + f, because a linear u cannot balance f pointwise (membrane locking). An axial bubble c xi (1 - xi), with c such
+    that the first moment of u' + (v'^2 + w'^2) / 2 vanishes, balances the linear part of f.
 
     Parameters
     ----------
     elements : int
         N.
-    l, EA, EJ, beta : Expr
-        Length of an element in m, stiffnesses in N and N.m2, and stiffness-proportional damping in s.
+    l : Expr
+        Length of an element in m.
+    stiffness : Stiffness
+        Stiffness of the elements.
     second_order : bool
-        Whether the slope shortens the axis.
+        Whether slopes shorten the axis.
     """
 
     elements: int
     l: Any
-    EA: Any
-    EJ: Any
-    beta: Any
+    stiffness: Stiffness
     second_order: bool
 
-    def _bends(self, U: Any) -> list[Bend]:
-        """Bending of every element."""
-        found = []
-        for j in range(self.elements):
-            _, v_1, a, _, v_2, b = (U[3 * j + k] for k in range(6))
-            found.append(Bend(v_2 - v_1, a - b, 2 * (v_2 - v_1) - a - b))
-        return found
+    @property
+    def shortens(self) -> bool:
+        """Return whether bending changes the length of the axis."""
+        return self.second_order or not all(as_expr(x).sx.is_zero() for x in self.stiffness.centroid)
+
+    @property
+    def _shift(self) -> Pair:
+        """Displacement of the shear centre by phi = 1 rad, from the axis, in m."""
+        return self.stiffness.shear_centre.times(-1.0).quarter_turn()
+
+    def bend(self, U: Nodes) -> Bend:
+        """Bending of the elements."""
+        turn = self.twist(U)
+        d = Pair(*(last(x) - first(x) + turn * k for x, k in zip(U.across, self._shift, strict=True)))
+        q = Pair(*(first(x) - last(x) for x in U.slopes))
+        total = Pair(*(first(x) + last(x) for x in U.slopes))
+        return Bend(d, q, d.times(2).plus(total.times(-1)).scaled(self.stiffness.psi))
+
+    def twist(self, U: Nodes) -> Any:
+        """Angle phi of the second node against the first one, in rad."""
+        return (last(U.phi) - first(U.phi)) / self.l
 
     def _slopes(self, e: Bend, f: Bend) -> Any:
-        """Integral of v' w' over an element, in m."""
-        return (e.d * f.d + e.q * f.q / 12 + e.r * f.r / 20) / self.l
-
-    def shortening(self, U: Any, Ud: Any, Udd: Any) -> list[tuple[Any, Any, Any]]:
-        """Shortening of every element by its slope in m, and its derivatives; 0 without second order."""
-        if not self.second_order:
-            zero = as_expr(0.0)
-            return [(zero, zero, zero)] * self.elements
-        found = []
-        for e, ed, edd in zip(self._bends(U), self._bends(Ud), self._bends(Udd), strict=True):
-            s, half_rate, steep = self._slopes(e, e), self._slopes(e, ed), self._steepness(e)
-            again = (self._slopes(ed, ed) + self._slopes(e, edd)) * steep + half_rate * half_rate / self.l
-            found.append((s / 2 + s * s / (8 * self.l), half_rate * steep, again))
-        return found
+        """Integral of the product of the slopes of two shapes over each element, in m."""
+        return (e.d.dot(f.d) + e.q.dot(f.q) / 12 + e.r.dot(f.r) / 20) / self.l
 
     def _steepness(self, e: Bend) -> Any:
-        """Derivative of the shortening with respect to half the integral of v'^2."""
-        return 1 + self._slopes(e, e) / (2 * self.l)
+        """Derivative of the shortening with respect to half the integral of v'^2 + w'^2."""
+        return np.ones(self.elements) + self._slopes(e, e) / (2 * self.l)
 
-    def unstretched(self, U: Any, Ud: Any, Udd: Any) -> tuple[Any, Any, Any]:
+    def shortening(self, e: Bend, ed: Bend, edd: Bend) -> Motion:
+        """Extension of the elements at u = 0 in m, by their slopes and off the centroid, and its derivatives."""
+        g, gd, gdd = (x.q.scaled(self.stiffness.centroid) for x in (e, ed, edd))
+        g, gd, gdd = ((x.y + x.z) / self.l for x in (g, gd, gdd))
+        if self.second_order:
+            s, half_rate, steep = self._slopes(e, e), self._slopes(e, ed), self._steepness(e)
+            g, gd = g + s / 2 + s * s / (8 * self.l), gd + half_rate * steep
+            gdd = gdd + (self._slopes(ed, ed) + self._slopes(e, edd)) * steep + half_rate * half_rate / self.l
+        return g, gd, gdd
+
+    def unstretched(self, motion: tuple[Nodes, Nodes, Nodes]) -> tuple[Nodes, Nodes, Nodes]:
         """Nodal coordinates and derivatives, with u such that all element lengths are constant."""
-        g, gd, gdd = zip(*self.shortening(U, Ud, Udd), strict=True)
-        return shifted(U, [-x for x in g]), shifted(Ud, [-x for x in gd]), shifted(Udd, [-x for x in gdd])
+        U, Ud, Udd = (shifted(U, -g) for U, g in zip(motion, self.shortening(*map(self.bend, motion)), strict=True))
+        return U, Ud, Udd
 
-    def with_bubbles(self, U: Any, Ud: Any, Udd: Any) -> tuple[Any, Any, Any]:
-        """Append c of every element and its derivatives, in m; unchanged without second order."""
+    def extension(self, U: Nodes, Ud: Nodes) -> tuple[Any, Any]:
+        """Change of length of the elements in m, and its rate."""
+        e, ed = self.bend(U), self.bend(Ud)
+        g, gd, _ = self.shortening(e, ed, ed)
+        return last(U.u) - first(U.u) + g, last(Ud.u) - first(Ud.u) + gd
+
+    def pull(self, e: Bend, force: Any) -> Bend:
+        """Generalised forces of the axial forces on the bending of the elements, in N."""
+        offset = self.stiffness.centroid.times(force / self.l)
         if not self.second_order:
-            return U, Ud, Udd
-        c, cd, cdd = [], [], []
-        for e, ed, edd in zip(self._bends(U), self._bends(Ud), self._bends(Udd), strict=True):
-            k, kd, kdd = (self._lean(x) for x in (e, ed, edd))
-            c.append(e.q * k)
-            cd.append(ed.q * k + e.q * kd)
-            cdd.append(edd.q * k + 2 * ed.q * kd + e.q * kdd)
-        return _joined(U, c), _joined(Ud, cd), _joined(Udd, cdd)
+            return Bend(offset.times(0.0), offset, offset.times(0.0))
+        steep = force * self._steepness(e) / self.l
+        return Bend(e.d.times(steep), e.q.times(steep / 12).plus(offset), e.r.times(steep / 20))
 
-    def bubble(self, U: Any, j: int) -> Any:
-        """Coefficient c of element j, in m; 0 without second order."""
-        bend = self._bends(U)[j]
-        return bend.q * self._lean(bend) if self.second_order else 0.0
+    def bubbles(self, motion: tuple[Nodes, Nodes, Nodes]) -> Motion:
+        """Coefficients c of the elements and their derivatives, in m; empty without second order."""
+        if not self.second_order:
+            return (), (), ()
+        (e, ed, edd), (k, kd, kdd) = zip(*((b, self._first_moment(b)) for b in map(self.bend, motion)), strict=True)
+        rate = ed.q.dot(k) + e.q.dot(kd)
+        return e.q.dot(k), rate, edd.q.dot(k) + 2 * ed.q.dot(kd) + e.q.dot(kdd)
 
-    def middle(self, U: Any, j: int) -> tuple[Any, Any]:
-        """Displacements (u, v) of the middle of element j, in m."""
-        u_1, v_1, a, u_2, v_2, b = (U[3 * j + k] for k in range(6))
-        return (u_1 + u_2) / 2 + self.bubble(U, j) / 4, (v_1 + v_2) / 2 + (a - b) / 8
+    def _first_moment(self, e: Bend) -> Pair:
+        """First moment of the slope over its mode q, which gives c = q (r / 10 - d / 2) / l in each plane."""
+        return e.r.times(1 / (10 * self.l)).plus(e.d.times(-1 / (2 * self.l)))
 
-    def tangents(self, U: Any) -> list[tuple[Any, Any]]:
-        """Tangent d/dxi of the deformed axis, along and across the beam, at every node, in m.
+    def with_bubbles(self, nodal: Nodes, on_c: Any, U: Nodes) -> Nodes:
+        """Nodal forces equivalent to nodal forces and those on the coefficients c, which are functions of the slopes."""
+        if not self.second_order:
+            return nodal
+        e = self.bend(U)
+        across = e.q.times(on_c / self.l)
+        return nodal.plus(
+            self.on_nodes(Bend(across.times(-1 / 2), self._first_moment(e).times(on_c), across.times(1 / 10)))
+        )
 
-        At a node the mean of the stretches on both sides is used.
-        """
-        stretches, found = [e for e, _ in self._extensions(U, U)], []
-        for k in range(self.elements + 1):
-            near, square = stretches[max(k - 1, 0) : k + 1], (U[3 * k + 2] / self.l) * (U[3 * k + 2] / self.l)
-            shorter = self.l * (square / 2 + square * square / 8) if self.second_order else 0.0
-            found.append((self.l - shorter + sum(near[1:], near[0]) / len(near), U[3 * k + 2]))
-        return found
-
-    def _lean(self, e: Bend) -> Any:
-        return (e.r / 10 - e.d / 2) / self.l
-
-    def without_bubbles(self, forces: Any, U: Any) -> Any:
-        """Nodal forces equivalent to forces on the coordinates and on c, which is a function of the slopes."""
-        n = 3 * self.elements + 3
-        total = [forces[k] for k in range(n)]
-        for j, e in enumerate(self._bends(U) if self.second_order else ()):
-            on_q = forces[n + j] * e.q / self.l
-            _add(total, j, Bend(-on_q / 2, forces[n + j] * self._lean(e), on_q / 10))
-        return as_expr(total)
-
-    def angle(self, turn: Any) -> Any:
-        """Angle in rad of a section with the nodal coordinate turn = l v'; v' = sin(angle) in second order."""
-        slope = turn / self.l
-        return slope + slope * slope * slope / 6 if self.second_order else slope
-
-    def angle_derivative(self, turn: Any) -> Any:
-        """Derivative of the angle with respect to the slope."""
-        slope = turn / self.l
-        return 1 + slope * slope / 2 if self.second_order else 1.0
-
-    def stretching(self, U: Any, Ud: Any) -> list[Any]:
-        """Axial force of each element from its extension, in N."""
-        return [self.EA / self.l * (e + self.beta * rate) for e, rate in self._extensions(U, Ud)]
-
-    def _extensions(self, U: Any, Ud: Any) -> list[tuple[Any, Any]]:
-        """Change of length of each element in m, and its rate."""
-        return [
-            (U[3 * j + 3] - U[3 * j] + g, Ud[3 * j + 3] - Ud[3 * j] + rate)
-            for j, (g, rate, _) in enumerate(self.shortening(U, Ud, Ud))
-        ]
-
-    def forces(self, U: Any, Ud: Any, N: list[Any]) -> Any:
-        """Nodal forces of the axial forces N and of bending, in N, conjugate to U; shape (3 elements + 3,)."""
-        total = [as_expr(0.0)] * (3 * self.elements + 3)
-        k = self.EJ / self.l**3
-        for j, (force, e, ed) in enumerate(zip(N, self._bends(U), self._bends(Ud), strict=True)):
-            total[3 * j] -= force
-            total[3 * j + 3] += force
-            on = Bend(as_expr(0.0), k * (e.q + self.beta * ed.q), 3 * k * (e.r + self.beta * ed.r))
-            if self.second_order:
-                turn = force * self._steepness(e) / self.l
-                parts = [Bend(turn * e.d, turn * e.q / 12, turn * e.r / 20), self._steep_bending(e)]
-                on = Bend(*(sum(entries[1:], entries[0]) for entries in zip(on, *parts, strict=True)))
-            _add(total, j, on)
-        return as_expr(total)
-
-    def _steep_bending(self, e: Bend) -> Bend:
-        """Derivatives of E J v''^2 v'^2 / 2, by two-point Gauss quadrature."""
-        on = [as_expr(0.0)] * 3
-        for sign, slope, bent in gauss(e):
-            by_slope, by_bent = (self.EJ / (2 * self.l**5) * x for x in (slope * bent * bent, slope * slope * bent))
-            more = (by_slope, sign / sqrt(12) * by_slope - by_bent, sign * sqrt(3) * by_bent)
-            on = [a + b for a, b in zip(on, more, strict=True)]
-        return Bend(*on)
-
-    def energy(self, U: Any, stretches: bool) -> Any:
-        """Strain energy in J; that of stretch only if `stretches`."""
-        total = as_expr(0.0)
-        for e in self._bends(U):
-            total += self.EJ / self.l**3 * (e.q * e.q + 3 * e.r * e.r) / 2
-            for _, slope, bent in gauss(e) if self.second_order else ():
-                total += self.EJ / self.l**5 * (slope * bent) * (slope * bent) / 4
-        return total + (self.EA / self.l * sum(e * e for e, _ in self._extensions(U, U)) / 2 if stretches else 0.0)
-
-    def dissipated(self, U: Any, Ud: Any, stretches: bool) -> Any:
-        """Power of the stiffness-proportional damping, in W."""
-        bending = self.EJ / self.l**3 * sum(e.q * e.q + 3 * e.r * e.r for e in self._bends(Ud))
-        axial = self.EA / self.l * sum(r * r for _, r in self._extensions(U, Ud)) if stretches else 0.0
-        return self.beta * (bending + axial)
+    def on_nodes(self, on: Bend) -> Nodes:
+        """Nodal forces equivalent to generalised forces on the bending of the elements."""
+        r = on.r.scaled(self.stiffness.psi)
+        across = on.d.plus(r.times(2))
+        turn = across.dot(self._shift) / self.l
+        slopes = Pair(*(to_first(q - x) - to_last(q + x) for q, x in zip(on.q, r, strict=True)))
+        v, w = (to_last(x) - to_first(x) for x in across)
+        zero = np.zeros(self.elements)
+        return along_nodes(to_first(zero), Pair(v, w), slopes, to_last(turn + zero) - to_first(turn + zero))
 
 
-def shifted(U: Any, lengths: list[Any]) -> Any:
+def shifted(U: Nodes, lengths: Any) -> Nodes:
     """Add the cumulative lengths of the preceding elements to u of each node."""
-    entries, total = [U[k] for k in range(U.shape[0])], as_expr(0.0)
-    for j, length in enumerate(lengths):
+    entries, total = [as_expr(0.0)], as_expr(0.0)
+    for length in lengths:
         total = total + length
-        entries[3 * j + 3] = entries[3 * j + 3] + total
-    return as_expr(entries)
-
-
-def gauss(e: Bend) -> list[tuple[int, Any, Any]]:
-    """Return the sign of eta, l v' and l^2 v'' at the two Gauss points eta = 1 / sqrt(3) and -1 / sqrt(3)."""
-    return [(sign, e.d + sign / sqrt(12) * e.q, sign * sqrt(3) * e.r - e.q) for sign in (1, -1)]
-
-
-def _joined(U: Any, more: list[Any]) -> Any:
-    return as_expr([*[U[k] for k in range(U.shape[0])], *more])
-
-
-def _add(total: list[Any], j: int, on: Bend) -> None:
-    """Add the nodal forces equivalent to generalised forces on the bending of element j."""
-    across = on.d + 2 * on.r
-    for k, force in ((1, -across), (2, on.q - on.r), (4, across), (5, -on.q - on.r)):
-        total[3 * j + k] += force
+        entries.append(total)
+    return U._replace(u=U.u + as_expr(entries))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import as_expr, atan2, chain, connect, observed, parts, structural
+from acausal import as_expr, chain, connect, observed, parts, structural
 from components.beams.beam import Beam
+from components.beams.beam_motion import BeamMotion
 from components.beams.flexible_beam import FlexibleBeam
+from components.rotation_vector import rotation_vector
 
 
 class SubstructuredBeam(Beam):
@@ -26,11 +28,15 @@ class SubstructuredBeam(Beam):
         return [
             FlexibleBeam(
                 length=self.length / self.volumes,
+                section=self._section_of(k),
                 E=self.E,
+                nu=self.nu,
+                G=self.G,
                 rho=self.rho,
                 A=self.A,
                 J=self.J,
                 J_y=self.J_y,
+                J_t=self.J_t,
                 torsional_inertia=self.torsional_inertia / self.volumes,
                 elements=self.elements_per_volume,
                 reference=self.reference,
@@ -40,6 +46,8 @@ class SubstructuredBeam(Beam):
                 nominal_rate=self.nominal_rate,
                 axial=self.axial,
                 bending=self.bending,
+                torsion=self.torsion,
+                shear=self.shear,
                 rotary_inertia=self.rotary_inertia,
                 centrifugal=self.centrifugal,
                 coriolis=self.coriolis,
@@ -48,8 +56,13 @@ class SubstructuredBeam(Beam):
                 weight=self.weight,
                 check_range=False,
             )
-            for _ in range(self.volumes)
+            for k in range(self.volumes)
         ]
+
+    def _section_of(self, k: int) -> Any:
+        """Section of volume k."""
+        whole, n = self.section, self.volumes
+        return (lambda s: whole((k + s) / n)) if callable(whole) else whole
 
     @property
     def frames(self) -> list[Any]:
@@ -69,18 +82,18 @@ class SubstructuredBeam(Beam):
 
     @observed
     def node_deflection(self):
-        """Displacement (u, v) and rotation of every node, shape (nodes, 3), resolved in frame_a."""
+        """Displacement (u, v, w) and rotation vector of every node, shape (nodes, 6), resolved in frame_a."""
         a, nodes = self.frame_a, self._nodes("node_r_0")
         n = nodes.shape[0]
         local = (nodes - as_expr([[a.r_0[i] for i in range(3)]] * n)) @ a.R.T.T
-        along = [[k * self.length / (n - 1), 0.0] for k in range(n)]
         turned = []
         for k, volume in enumerate(self.volume):
-            T = volume.ref.R.T @ a.R.T.T
-            own = volume.node_deflection
-            start = 0 if k == 0 else 1
-            turned += [atan2(T[0, 1], T[0, 0]) + own[i, 2] for i in range(start, own.shape[0])]
-        return as_expr([[local[k, 0] - along[k][0], local[k, 1], turned[k]] for k in range(n)])
+            motion, T = BeamMotion(volume), volume.ref.R.T @ a.R.T.T
+            own = [motion.rotation(i).matrix() @ T for i in range(0 if k == 0 else 1, volume.elements + 1)]
+            turned += [rotation_vector(R) for R in own]
+        return as_expr(
+            [[local[k, 0] - k * self.length / (n - 1), local[k, 1], local[k, 2], *turned[k]] for k in range(n)]
+        )
 
     @observed
     def middle_r_0(self):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from acausal import as_expr, cos, geometry, in_loop, rooted, sin, sqrt
+from acausal import as_expr, dot, geometry, in_loop, rooted, sqrt
+from components.beams.beam_motion import BeamMotion
 from components.frame import pose
 from components.orientation import resolve1
 
@@ -49,8 +50,7 @@ def _of_nodes(frames: list[Any], entries: Callable[[Any], list[Any]]) -> Any:
 
 def _tangents(frame: Any) -> list[Any]:
     """Tangent d/dxi of the deformed axis at every node, resolved in the world, in m."""
-    local = frame._strain.tangents(frame._shape())
-    return [resolve1(frame.ref.R, as_expr((along, across, 0.0))) for along, across in local]
+    return [resolve1(frame.ref.R, tangent) for tangent in BeamMotion(frame).tangents()]
 
 
 def _moments(frame: Any) -> list[Any]:
@@ -60,5 +60,5 @@ def _moments(frame: Any) -> list[Any]:
 
 def _axial_forces(frame: Any) -> list[Any]:
     """Axial force in each section, in N, positive in tension."""
-    force, moved = frame.node_force, frame.node_deflection
-    return [force[k, 0] * cos(moved[k, 2]) + force[k, 1] * sin(moved[k, 2]) for k in range(frame.elements + 1)]
+    force, motion = frame.node_force, BeamMotion(frame)
+    return [dot(motion.rotation(k).axis(), force[k]) for k in range(frame.elements + 1)]

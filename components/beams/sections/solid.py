@@ -1,0 +1,45 @@
+"""SolidSection: base of sections of one material."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from components.beams.sections.section import Section
+
+
+class SolidSection:
+    """A section of one material, with its centroid and its shear centre on the axis of the beam."""
+
+    angle: Any
+
+    @property
+    def A(self) -> Any:
+        """Area in m2."""
+        raise NotImplementedError
+
+    @property
+    def J_y(self) -> Any:
+        """Second moment of area about y in m4."""
+        raise NotImplementedError
+
+    @property
+    def J_z(self) -> Any:
+        """Second moment of area about z in m4."""
+        raise NotImplementedError
+
+    @property
+    def J_t(self) -> Any:
+        """Torsion constant in m4."""
+        raise NotImplementedError
+
+    def shear_factor(self, nu: Any) -> Any:
+        """Shear factor of Timoshenko's beam at Poisson's ratio nu."""
+        raise NotImplementedError
+
+    def section(self, E: Any, G: Any, rho: Any) -> Section:
+        """Return the section of a material with the moduli E and G in Pa and the density rho in kg/m3."""
+        kGA = self.shear_factor(E / (2 * G) - 1) * G * self.A
+        J_y, J_z = self.J_y, self.J_z
+        return Section(
+            E * self.A, E * J_y, E * J_z, G * self.J_t, rho * self.A, rho * J_y, rho * J_z, kGA, kGA, angle=self.angle
+        )
