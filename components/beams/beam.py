@@ -144,7 +144,8 @@ class Beam(TwoFrames):
     geometric_stiffness: bool = effect(
         "geometric (second-order) stiffness",
         default=False,
-        doc="Shortening of the axis by its slope, and moments on it: axial tension stiffens the beam, compression softens or buckles it.",
+        doc="Shortening of the axis by its slope, and moments that turn with it: tension "
+        "stiffens the beam, compression softens or buckles it.",
     )
     damping: bool = effect("Rayleigh damping by alpha and beta", default=True)
     weight: bool = effect("weight", default=True)

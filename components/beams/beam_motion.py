@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from acausal import as_expr
+from acausal import Expr, as_expr
 from components.beams.elasticity import Elasticity
 from components.beams.inertia import Inertia, Place
 from components.beams.nodes import NODE, Nodes
-from components.beams.pair import Symmetric
+from components.beams.pair import Symmetric, inverse
 from components.beams.point_inertia import PointInertia
 from components.beams.rotary_inertia import SIMPSON, Discs, Spin, micro_energy, micro_inertia
 from components.beams.section_rotation import SectionRotation
@@ -84,11 +84,11 @@ class BeamMotion:
         """Axial force of every element, in N."""
         if self.beam.axial == "dynamic":
             return self._elasticity.tensions(*self.coordinates[:2])
-        return as_expr(self.beam.tension.sx) if self.beam._has_tension else as_expr(np.zeros(self.n))
+        return Expr(self.beam.tension.sx, shape=(self.n,)) if self.beam._has_tension else as_expr(np.zeros(self.n))
 
     def stretches(self) -> Any:
         """Quasi-static change of length of every element, in m."""
-        return self.beam.tension * self.l / self.strain.stiffness.EA
+        return self.l * inverse(self.strain.stiffness.EA) * self.beam.tension
 
     @cached_property
     def shape(self) -> Nodes:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from acausal import as_expr
+
 
 class Pair(NamedTuple):
     """Components along y and z, each a scalar or a vector with an entry per element or node."""
@@ -42,3 +44,8 @@ class Symmetric(NamedTuple):
     def times(self, x: Pair) -> Pair:
         """Return the product with a pair."""
         return Pair(self.yy * x.y + self.yz * x.z, self.yz * x.y + self.zz * x.z)
+
+
+def inverse(x: Any) -> Any:
+    """Return 1 / x, of every entry of a vector."""
+    return as_expr([1 / entry for entry in x]) if as_expr(x).shape else 1 / x

@@ -7,7 +7,7 @@ from math import sqrt
 from typing import Any
 
 from acausal import as_expr
-from components.beams.pair import Pair, Symmetric
+from components.beams.pair import Pair, Symmetric, inverse
 from components.beams.sections import Section
 
 GAUSS = (-1 / sqrt(3), 1 / sqrt(3))
@@ -48,11 +48,13 @@ class Stiffness:
         bending = a.bending(), (a if b is a else b).bending()
         psi, sheared = ONE, ZERO
         if shear:
-            EJ, kGA = _mean(bending[0].yy, bending[1].yy), _mean(a.shear().y, b.shear().y)
-            EJ_w, kGA_z = _mean(bending[0].zz, bending[1].zz), _mean(a.shear().z, b.shear().z)
-            ratios = Pair(12 * EJ / (kGA * l * l), 12 * EJ_w / (kGA_z * l * l))
-            psi = Pair(1 / (1 + ratios.y), 1 / (1 + ratios.z))
-            sheared = ratios.scaled(Pair(3 * EJ, 3 * EJ_w))
+            (EJ_v, _, EJ_w), kGA = (
+                (_mean(*pair) for pair in zip(*bending, strict=True)),
+                _mean(a.shear().y, b.shear().y),
+            )
+            rigid = [l * l * x for x in (kGA, _mean(a.shear().z, b.shear().z))]
+            psi = Pair(*(x * inverse(x + 12 * EJ) for x, EJ in zip(rigid, (EJ_v, EJ_w), strict=True)))
+            sheared = Pair(*(36 * EJ * EJ * inverse(x) for x, EJ in zip(rigid, (EJ_v, EJ_w), strict=True)))
         return cls(
             _harmonic(a.EA, b.EA),
             _harmonic(a.GJ_t, b.GJ_t),
@@ -84,4 +86,4 @@ def _mean(a: Any, b: Any) -> Any:
 
 
 def _harmonic(a: Any, b: Any) -> Any:
-    return a if a is b else 2 * a * b / (a + b)
+    return a if a is b else 2 * a * b * inverse(a + b)

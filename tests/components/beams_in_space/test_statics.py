@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from tests.components.beams_in_space.scenes import Arc, Cantilever, beam_of
+from tests.components.beams_in_space.scenes import Arc, Cantilever
 from tests.reference.rod import loaded_rod
 
 BEND = {"E": 1e7, "G": 5e6, "rho": 1e-3, "A": 1.0, "J": 1 / 12, "J_t": 0.1406}
