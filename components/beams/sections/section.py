@@ -135,4 +135,4 @@ def _place(y: Any, z: Any, angle: Any) -> Pair:
 def joined(sections: Sequence[Section]) -> Section:
     """Return a section whose values are vectors, with one entry for each of the given sections."""
     columns = ((f.name, [getattr(s, f.name) for s in sections]) for f in fields(Section))
-    return Section(**{name: as_expr(column) for name, column in columns if None not in column})
+    return Section(**{name: as_expr(column) for name, column in columns if all(x is not None for x in column)})

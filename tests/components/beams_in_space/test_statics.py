@@ -84,21 +84,3 @@ def test_strip_at_45_degrees():
     assert coarse[0] / fine[0] > 3.5
     one, _ = strip_errors(elements=8, geometric_stiffness=True)
     assert one < 8e-3
-
-
-def test_rectangle_has_the_torsion_constant_of_tables():
-    """Timoshenko, Goodier: 0.1406, 0.229 and 0.263 a b^3 with sides of ratio 1, 2 and 3."""
-    for ratio, factor in ((1, 0.1406), (2, 0.229), (3, 0.263), (10, 0.312)):
-        for width, height in ((ratio, 1.0), (1.0, ratio)):
-            section = ac.compile(
-                Cantilever(kind={"length": 1, "section": ac_rectangle(width, height), "E": 1, "rho": 1})
-            )
-            value = section.settable.values(None)
-            assert value is not None
-            assert float(ac_rectangle(width, height).J_t) == pytest.approx(factor * ratio, rel=2e-3)
-
-
-def ac_rectangle(width: float, height: float):
-    from components import Rectangle
-
-    return Rectangle(width, height)
