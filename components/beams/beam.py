@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from acausal import Scalar, effect, observed, parameter, sqrt, structural
+from acausal import DeclarationError, Scalar, effect, observed, parameter, sqrt, structural
 from components.beams.range import beam_range
 from components.beams.section_values import EQUIVALENT, of_section
 from components.beams.shape import tube
@@ -156,6 +156,17 @@ class Beam(TwoFrames):
     def frames(self) -> list[Any]:
         """The flexible beams of this beam, each with its own floating frame."""
         return [self]
+
+    def check(self) -> None:
+        """Refuse torsion without inertia.
+
+        Raises
+        ------
+        DeclarationError
+            torsional_inertia is 0.
+        """
+        if self.torsion and self.torsional_inertia.sx.is_zero():
+            raise DeclarationError("torsion=True needs torsional_inertia > 0: give it, or torsion=False.")
 
     def validity(self):
         if self.check_range:

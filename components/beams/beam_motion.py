@@ -198,9 +198,10 @@ class BeamMotion:
 
     def drag(self) -> Nodes:
         """Nodal forces of the damping proportional to the mass, in N."""
-        nodal, on_c = self.inertia.momentum()
-        alpha = self.beam.alpha if self.beam.damping else 0.0
-        return self.strain.with_bubbles(nodal, on_c, self.coordinates[0]).times(alpha)
+        (U, Ud, _), (mass, polar) = self.coordinates, self._elongating
+        nodal = self.strain.with_bubbles(*self.inertia.momentum(), U).plus(self.sections.momentum()[1])
+        nodal = nodal._replace(u=nodal.u + micro_inertia(Ud.u, mass), phi=nodal.phi + micro_inertia(Ud.phi, polar))
+        return nodal.times(self.beam.alpha if self.beam.damping else 0.0)
 
     def loads(self, t_a: Any, f_b: Any, t_b: Any) -> list[Any]:
         """Nodal forces of the loads on both ends, resolved in the reference frame, in N, six of every node."""

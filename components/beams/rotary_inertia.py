@@ -62,6 +62,10 @@ class Spin:
         moment = as_expr((sum(own, as_expr(0.0)), w[2] * L, -w[1] * L))
         return moment, Nodes.zero(len(turned))._replace(phi=turned / self.l)
 
+    def momentum(self) -> tuple[Any, Nodes]:
+        """Return the angular momentum of the rates of deformation in kg.m2/s, and their momenta in kg.m/s."""
+        return _momentum(self)
+
     def kinetic_energy(self, w: Any) -> Any:
         """Kinetic energy in J."""
         mean, apart = w[0] * self._one + self._mean(self.rate), (last(self.rate.phi) - first(self.rate.phi)) / self.l
@@ -124,6 +128,10 @@ class Discs:
             nodal = nodal.plus(at.on_nodes(Vector(nothing, nothing, nothing), Pair(v, w_), phi)[0])
         return moment, nodal
 
+    def momentum(self) -> tuple[Any, Nodes]:
+        """Return the momenta, as `Spin.momentum`."""
+        return _momentum(self)
+
     def kinetic_energy(self, w: Any) -> Any:
         """Kinetic energy in J."""
         total = as_expr(0.0)
@@ -136,6 +144,12 @@ class Discs:
     def element(self, j: int) -> Discs:
         """Return the sections of element j alone."""
         return replace(self, elements=(j,))
+
+
+def _momentum(sections: Spin | Discs) -> tuple[Any, Nodes]:
+    """Momenta of the rates of deformation: the inertia forces of these as accelerations, at rest."""
+    still = replace(sections, rate=Nodes.zero(len(sections.rate.u)), acceleration=sections.rate)
+    return still.forces(np.zeros(3), np.zeros(3))
 
 
 def _slopes(at: Station, U: Nodes, j: int) -> tuple[Any, Any, Any]:

@@ -26,9 +26,11 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
     T_b, r_b = motion.rotation(-1).matrix(), motion.end()
     force = T_b.T @ b.f
     if beam.reference == "pinned":
-        _, spin = inertia.deformation_momentum()
+        spin = inertia.deformation_momentum()[1] + sections.momentum()[0]
         force += alpha / r_b[0] * as_expr((0.0, spin[2], -spin[1]))
     moment = T_b.T @ b.t + cross(r_b, force)
+    if beam.reference == "pinned":  # both ends guide the chord about its axis
+        moment += alpha / 2 * as_expr((spin[0], 0.0, 0.0))
     loads = []
     for k in range(beam.elements, -1, -1):
         at = motion.place(k, U)
@@ -38,6 +40,7 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
             own, about, _ = part.forces(a, ref.z, ref.R.w)
             turning, _ = sections.element(k - 1).forces(ref.z, ref.R.w)
             drag, spin = part.deformation_momentum()
+            spin += sections.element(k - 1).momentum()[0]
             force = force - own - alpha * drag
             moment = moment - about - turning - alpha * spin
     return loads[::-1]
