@@ -1,7 +1,7 @@
 """Machine components: joints, bodies, forces and drives; drive trains are in `components.rotational`."""
 
 from components import constraints, contact, rotational, sensors, thermal, translational
-from components.beams import Circle, FlexibleBeam, Rectangle, Section, SubstructuredBeam, Tube
+from components.beams import Circle, FlexibleBeam, Load, Rectangle, Section, SubstructuredBeam, Tube
 from components.bevel_gear_1d import BevelGear1D
 from components.body import Body
 from components.body_box import BodyBox
@@ -106,6 +106,7 @@ __all__ = [
     "LineForceLaw",
     "LineForceWithMass",
     "LineForceWithTwoMasses",
+    "Load",
     "MassOnLine",
     "Mounting1D",
     "MovingBody",

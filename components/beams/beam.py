@@ -64,6 +64,11 @@ class Beam(TwoFrames):
         minimum=0,
         doc="Spread evenly; rho (J + J_y) length if not given.",
     )
+    distributed: Any = structural(
+        "distributed loads",
+        default=(),
+        doc="A Load, or several: forces and moments per length, whose power is supplied.",
+    )
     reference: str = structural(
         "reference frame",
         default="tangent",

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from acausal import Expr, as_expr
+from components.beams.distributed import PointLoad, on_nodes, point_loads, resultant
 from components.beams.elasticity import Elasticity
 from components.beams.inertia import Inertia, Place
+from components.beams.load import POINTS, WEIGHTS
 from components.beams.nodes import NODE, Nodes
 from components.beams.pair import Symmetric, inverse
 from components.beams.point_inertia import PointInertia
@@ -21,8 +23,6 @@ from components.beams.station import Station
 from components.beams.stiffness import GAUSS, ZERO, Stiffness
 from components.beams.strain import Strain, shifted
 from components.orientation import resolve1, resolve2
-
-POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact up to degree 7: products of shape functions have degree 6
 
 
 class BeamMotion:
@@ -77,7 +77,8 @@ class BeamMotion:
         return self.strain.unstretched(motion) if inextensible else motion
 
     @cached_property
-    def _bubbles(self) -> tuple[Any, Any, Any]:
+    def bubbles(self) -> tuple[Any, Any, Any]:
+        """Coefficients of the axial bubbles in m, and their derivatives; empty without second order."""
         return self.strain.bubbles(self.coordinates)
 
     def tensions(self) -> Any:
@@ -114,7 +115,7 @@ class BeamMotion:
         """Position of the material midpoint in the reference frame, in m."""
         half, odd = divmod(self.n, 2)
         at, k = (Station(self.strain, 0.0, ZERO), half) if odd else (Station(self.strain, 1.0, ZERO), half - 1)
-        moved = at.displacement(self.shape, self._bubbles[0])
+        moved = at.displacement(self.shape, self.bubbles[0])
         return as_expr((self.beam.length / 2 + moved.x[k], moved.y[k], moved.z[k]))
 
     def tangents(self) -> list[Any]:
@@ -132,7 +133,7 @@ class BeamMotion:
     def inertia(self) -> Inertia | PointInertia:
         """Inertia of the masses."""
         beam = self.beam
-        place, rate, acceleration = zip(self.coordinates, self._bubbles, strict=True)
+        place, rate, acceleration = zip(self.coordinates, self.bubbles, strict=True)
         effects = beam.centrifugal, beam.coriolis
         if self.varies or beam.shear or not self.strain.stiffness.is_centred:
             return PointInertia(self._masses(), place, rate, acceleration, *effects)
@@ -184,13 +185,23 @@ class BeamMotion:
         return mass, self._polar / (self.l * self.l) if self.beam.torsion else as_expr(0.0)
 
     def inertia_forces(self) -> tuple[Any, Any, Nodes]:
-        """Force, moment and nodal forces of inertia (36) to (38)."""
+        """Force, moment and nodal forces of inertia (36) to (38), less those of distributed loads."""
         ref, (U, _, Udd), (mass, polar) = self.beam.ref, self.coordinates, self._elongating
         force, moment, (nodal, on_c) = self.inertia.forces(self.acceleration(), ref.z, ref.R.w)
         spinning, more = self.sections.forces(ref.z, ref.R.w)
+        if self.distributed:
+            pushed, turned = resultant(self.distributed)
+            on_nodes_, on_bubbles = on_nodes(self.distributed, self.n)
+            force, moment, nodal = force - pushed, moment - turned, nodal.plus(on_nodes_.times(-1.0))
+            on_c = on_c - on_bubbles if len(on_c) else on_c
         nodal = self.strain.with_bubbles(nodal, on_c, U).plus(more)
         u, phi = nodal.u + micro_inertia(Udd.u, mass), nodal.phi + micro_inertia(Udd.phi, polar)
         return force, moment + spinning, nodal._replace(u=u, phi=phi)
+
+    @cached_property
+    def distributed(self) -> list[PointLoad]:
+        """Distributed loads at their points of Gauss."""
+        return list(point_loads(self))
 
     def elastic(self) -> Nodes:
         """Nodal forces of the strain, in N."""

@@ -193,6 +193,11 @@ class FlexibleBeam(Beam):
         """Power of the Rayleigh damping."""
         return BeamMotion(self).dissipated_power()
 
+    def supplied_power(self):
+        """Power of the distributed loads."""
+        loads = BeamMotion(self).distributed
+        return sum((load.power for load in loads[1:]), loads[0].power) if loads else 0.0
+
     @observed
     def node_deflection(self):
         """Displacement (u, v, w) and rotation vector (phi, -w', v') of every node, shape (nodes, 6), in the reference frame."""

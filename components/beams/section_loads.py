@@ -6,6 +6,7 @@ from typing import Any
 
 from acausal import as_expr, cross
 from components.beams.beam_motion import BeamMotion
+from components.beams.distributed import resultant
 
 
 def section_loads(beam: Any) -> list[tuple[Any, Any]]:
@@ -41,6 +42,7 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
             turning, _ = sections.element(k - 1).forces(ref.z, ref.R.w)
             drag, spin = part.deformation_momentum()
             spin += sections.element(k - 1).momentum()[0]
-            force = force - own - alpha * drag
-            moment = moment - about - turning - alpha * spin
+            pushed, turned = resultant([load for load in motion.distributed if load.j == k - 1])
+            force = force - own - alpha * drag + pushed
+            moment = moment - about - turning - alpha * spin + turned
     return loads[::-1]

@@ -8,6 +8,7 @@ from acausal import as_expr, chain, connect, observed, parts, structural
 from components.beams.beam import Beam
 from components.beams.beam_motion import BeamMotion
 from components.beams.flexible_beam import FlexibleBeam
+from components.beams.load import Load
 from components.rotation_vector import rotation_vector
 
 
@@ -54,6 +55,7 @@ class SubstructuredBeam(Beam):
                 geometric_stiffness=self.geometric_stiffness,
                 damping=self.damping,
                 weight=self.weight,
+                distributed=self._loads_on(k),
                 check_range=False,
             )
             for k in range(self.volumes)
@@ -63,6 +65,12 @@ class SubstructuredBeam(Beam):
         """Section of volume k."""
         whole, n = self.section, self.volumes
         return (lambda s: whole((k + s) / n)) if callable(whole) else whole
+
+    def _loads_on(self, k: int) -> tuple[Load, ...]:
+        """Distributed loads on volume k."""
+        loads = (self.distributed,) if isinstance(self.distributed, Load) else self.distributed
+        found = (load.part(k, self.volumes) for load in loads)
+        return tuple(load for load in found if load is not None)
 
     @property
     def frames(self) -> list[Any]:
