@@ -210,9 +210,11 @@ class BeamMotion:
     def drag(self) -> Nodes:
         """Nodal forces of the damping proportional to the mass, in N."""
         (U, Ud, _), (mass, polar) = self.coordinates, self._elongating
+        if not self.beam.damping or self.beam.alpha.sx.is_zero():
+            return Nodes.zero(self.n + 1)
         nodal = self.strain.with_bubbles(*self.inertia.momentum(), U).plus(self.sections.momentum()[1])
         nodal = nodal._replace(u=nodal.u + micro_inertia(Ud.u, mass), phi=nodal.phi + micro_inertia(Ud.phi, polar))
-        return nodal.times(self.beam.alpha if self.beam.damping else 0.0)
+        return nodal.times(self.beam.alpha)
 
     def loads(self, t_a: Any, f_b: Any, t_b: Any) -> list[Any]:
         """Nodal forces of the loads on both ends, resolved in the reference frame, in N, six of every node."""

@@ -55,17 +55,17 @@ def point_loads(motion: Any) -> Iterator[PointLoad]:
     for load in (loads,) if isinstance(loads, Load) else loads:
         for s, weight, elements in load.points(motion.n):
             at = Station(motion.strain, s, ZERO)
+            (U, Ud, _), (c, cd, _) = motion.coordinates, motion.bubbles
+            moved = at.rest, at.displacement(U, c), at.displacement(Ud, cd), at.rotation(U), at.rotation(Ud)
             for j in elements:
-                yield _at(motion, load, at, j, motion.l / 2 * weight)
+                yield _at(motion, load, at, j, motion.l / 2 * weight, moved)
 
 
-def _at(motion: Any, load: Load, at: Station, j: int, dx: Any) -> PointLoad:
-    """Load on a section over the length dx in m."""
-    ref, (U, Ud, _), (c, cd, _) = motion.beam.ref, motion.coordinates, motion.bubbles
-    rest, moved, moving = at.rest, at.displacement(U, c), at.displacement(Ud, cd)
-    r = as_expr([(a[j] + b[j]) for a, b in zip(rest, moved, strict=True)])
+def _at(motion: Any, load: Load, at: Station, j: int, dx: Any, moved: tuple[Any, ...]) -> PointLoad:
+    """Load on the section of element j over the length dx in m."""
+    ref, (rest, displaced, moving, (slope, phi), (slope_rate, phi_rate)) = motion.beam.ref, moved
+    r = as_expr([a[j] + b[j] for a, b in zip(rest, displaced, strict=True)])
     v = ref.v + cross(ref.R.w, r) + as_expr([part[j] for part in moving])
-    (slope, phi), (slope_rate, phi_rate) = at.rotation(U), at.rotation(Ud)
     rotation = SectionRotation(slope.y[j], slope.z[j], phi[j], motion.strain.second_order)
     turning, _ = rotation.rates(as_expr((slope_rate.y[j], slope_rate.z[j], phi_rate[j])), np.zeros(3))
     T, w = rotation.matrix(), ref.R.w + turning

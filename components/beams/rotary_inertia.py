@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -101,22 +101,25 @@ class Discs:
     coriolis: bool
     elements: Sequence[int]
 
-    def _turned(self, at: Station, polar: Any, second: Symmetric, j: int) -> tuple[SectionRotation, Any, Any, Any, Any]:
-        """Rotation of the section of element j, inertia tensors undeformed and now, angular velocity and acceleration."""
-        yy, yz, zz = (entry(x, j) for x in second)
-        rest = as_expr([[entry(polar, j), 0.0, 0.0], [0.0, zz, -yz], [0.0, -yz, yy]])
-        c, cd, cdd = (_slopes(at, U, j) for U in (self.place, self.rate, self.acceleration))
-        rotation = SectionRotation(*c, self.second_order)
-        T = rotation.matrix()
-        return rotation, rest, T.T @ rest @ T, *rotation.rates(as_expr(cd), as_expr(cdd))
+    def _turned(
+        self, at: Station, polar: Any, second: Symmetric
+    ) -> Iterator[tuple[int, SectionRotation, Any, Any, Any, Any]]:
+        """Yield elements with the rotation of their section, its inertia tensors undeformed and now, and its w and z."""
+        motion = [at.rotation(U) for U in (self.place, self.rate, self.acceleration)]
+        for j in self.elements:
+            yy, yz, zz = (entry(x, j) for x in second)
+            rest = as_expr([[entry(polar, j), 0.0, 0.0], [0.0, zz, -yz], [0.0, -yz, yy]])
+            c, cd, cdd = ((slope.y[j], slope.z[j], phi[j]) for slope, phi in motion)
+            rotation = SectionRotation(*c, self.second_order)
+            T = rotation.matrix()
+            yield j, rotation, rest, T.T @ rest @ T, *rotation.rates(as_expr(cd), as_expr(cdd))
 
     def forces(self, z: Any, w: Any) -> tuple[Any, Nodes]:
         """Return the inertia moment and nodal forces, as `Spin.forces`."""
         nodal, moment = Nodes.zero(len(self.place.u)), as_expr(np.zeros(3))
         for at, polar, second in self.discs:
             on = [[0.0] * (len(self.place.u) - 1) for _ in range(3)]
-            for j in self.elements:
-                rotation, rest, I, own, change = self._turned(at, polar, second, j)
+            for j, rotation, rest, I, own, change in self._turned(at, polar, second):
                 torque = I @ (z + change) + cross(own, I @ own) + cross(w, (I if self.centrifugal else rest) @ w)
                 if self.coriolis:
                     torque += I @ cross(w, own) + cross(w, I @ own) + cross(own, I @ w)
@@ -136,8 +139,7 @@ class Discs:
         """Kinetic energy in J."""
         total = as_expr(0.0)
         for disc in self.discs:
-            for j in self.elements:
-                _, _, I, own, _ = self._turned(*disc, j)
+            for _, _, _, I, own, _ in self._turned(*disc):
                 total += dot(w + own, I @ (w + own)) / 2
         return total
 
@@ -150,11 +152,6 @@ def _momentum(sections: Spin | Discs) -> tuple[Any, Nodes]:
     """Momenta of the rates of deformation: the inertia forces of these as accelerations, at rest."""
     still = replace(sections, rate=Nodes.zero(len(sections.rate.u)), acceleration=sections.rate)
     return still.forces(np.zeros(3), np.zeros(3))
-
-
-def _slopes(at: Station, U: Nodes, j: int) -> tuple[Any, Any, Any]:
-    slope, phi = at.rotation(U)
-    return slope.y[j], slope.z[j], phi[j]
 
 
 def micro_inertia(rate: Any, m: Any) -> Any:

@@ -42,7 +42,8 @@ class Station:
     @property
     def _arm(self) -> Pair:
         """Displacement of the point by phi = 1 rad, from the shear centre, in m."""
-        return self.strain.stiffness.shear_centre.plus(self.offset.times(-1.0)).quarter_turn()
+        centre, own = (Pair(*map(self._each, x)) for x in (self.strain.stiffness.shear_centre, self.offset))
+        return centre.plus(own.times(-1.0)).quarter_turn()
 
     @property
     def rest(self) -> Vector:

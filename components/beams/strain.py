@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -51,12 +51,15 @@ class Strain:
         Stiffness of the elements.
     second_order : bool
         Whether slopes shorten the axis.
+    known : dict
+        Bends of nodal coordinates, by their identity, which many parts of the beam ask for.
     """
 
     elements: int
     l: Any
     stiffness: Stiffness
     second_order: bool
+    known: dict[int, tuple[Nodes, Bend]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def shortens(self) -> bool:
@@ -70,6 +73,11 @@ class Strain:
 
     def bend(self, U: Nodes) -> Bend:
         """Bending of the elements."""
+        if id(U) not in self.known:
+            self.known[id(U)] = U, self._bend(U)
+        return self.known[id(U)][1]
+
+    def _bend(self, U: Nodes) -> Bend:
         turn = self.twist(U)
         d = Pair(*(last(x) - first(x) + turn * k for x, k in zip(U.across, self._shift, strict=True)))
         q = Pair(*(first(x) - last(x) for x in U.slopes))
