@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from acausal import DeclarationError, Scalar, effect, observed, parameter, sqrt, structural
+from acausal import DeclarationError, Scalar, effect, observed, parameter, parts, sqrt, structural
 from components.beams.range import beam_range
 from components.beams.section_values import EQUIVALENT, of_section
 from components.beams.shape import tube
-from components.frame import TwoFrames
+from components.frame import Frame, TwoFrames
 from components.orientation import resolve2
+
+ROUNDING = 1e-9  # of the place of a node, in elements
 
 
 class Beam(TwoFrames):
@@ -68,6 +70,11 @@ class Beam(TwoFrames):
         "distributed loads",
         default=(),
         doc="A Load, or several: forces and moments per length, whose power is supplied.",
+    )
+    frames_at: Any = structural(
+        "places x / length of inner frames",
+        default=(),
+        doc="Ports frames_inner[0], ... at nodes: fixed to the section there, which turns with the beam.",
     )
     reference: str = structural(
         "reference frame",
@@ -161,6 +168,27 @@ class Beam(TwoFrames):
     def frames(self) -> list[Any]:
         """The flexible beams of this beam, each with its own floating frame."""
         return [self]
+
+    @parts
+    def frames_inner(self):
+        """Frames at `frames_at`."""
+        return [Frame() for _ in self.frames_at]
+
+    def node_at(self, x: float, elements: int) -> int:
+        """Return the number of the node at x / length, of equal elements.
+
+        Raises
+        ------
+        DeclarationError
+            There is no node, or it is at an end of the beam.
+        """
+        node = round(x * elements)
+        if not 0 < node < elements or abs(x * elements - node) > ROUNDING:
+            raise DeclarationError(
+                f"frames_at contains {x!r}, but {elements} elements have nodes at multiples of 1/{elements} between the ends: "
+                "choose the number of elements, or of volumes, such that one is there."
+            )
+        return node
 
     def check(self) -> None:
         """Refuse torsion without inertia.

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Expr, as_expr
+from acausal import Expr, as_expr, cross
 from components.beams.distributed import PointLoad, on_nodes, point_loads, resultant
 from components.beams.elasticity import Elasticity
 from components.beams.inertia import Inertia, Place
@@ -216,15 +216,39 @@ class BeamMotion:
         nodal = nodal._replace(u=nodal.u + micro_inertia(Ud.u, mass), phi=nodal.phi + micro_inertia(Ud.phi, polar))
         return nodal.times(self.beam.alpha)
 
+    @cached_property
+    def _inner(self) -> list[tuple[int, Any]]:
+        beam = self.beam
+        return [(beam.node_at(x, self.n), frame) for x, frame in zip(beam.frames_at, beam.frames_inner, strict=True)]
+
+    def inner_frames(self) -> list[tuple[int, Any]]:
+        """Numbers of the nodes with an inner frame, and these frames."""
+        return self._inner
+
+    def inner_load(self, node: int, frame: Any) -> tuple[Any, Any]:
+        """Force and torque of an inner frame, resolved in the reference frame."""
+        T = self.rotation(node).matrix()
+        return T.T @ frame.f, T.T @ frame.t
+
+    def resultant(self, f_b: Any, t_b: Any) -> tuple[Any, Any]:
+        """Force and moment about the origin of the loads at frame_b, and at inner frames."""
+        force, moment = f_b, t_b + cross(self.end(), f_b)
+        for node, frame in self._inner:
+            f, t = self.inner_load(node, frame)
+            force, moment = force + f, moment + t + cross(self.place(node, self.coordinates[0]), f)
+        return force, moment
+
     def loads(self, t_a: Any, f_b: Any, t_b: Any) -> list[Any]:
-        """Nodal forces of the loads on both ends, resolved in the reference frame, in N, six of every node."""
+        """Nodal forces of the loads on all frames, resolved in the reference frame, in N, six of every node."""
         load = [as_expr(0.0)] * (NODE * self.n + NODE)
-        last = NODE * self.n
-        for at, node, torque in ((0, 0, t_a), (last, -1, t_b)):
+        nothing = as_expr(np.zeros(3))
+        given = [(0, nothing, t_a), (self.n, f_b, t_b)]
+        given += [(node, *self.inner_load(node, frame)) for node, frame in self._inner]
+        for node, force, torque in given:
             for k, on in zip((2, 4, 5), self.rotation(node).forces(torque), strict=True):
-                load[at + k] = on / self.l
-        for k, force in zip((0, 1, 3), f_b, strict=True):
-            load[last + k] = force
+                load[NODE * node + k] += on / self.l
+            for k, on in zip((0, 1, 3), force, strict=True):
+                load[NODE * node + k] += on
         return load
 
     def centre(self) -> Any:

@@ -10,7 +10,6 @@ from acausal import (
     PREFER,
     as_expr,
     branch,
-    cross,
     der,
     in_loop,
     initial,
@@ -113,7 +112,8 @@ class FlexibleBeam(Beam):
     def connections(self):
         if self.reference == "pinned":
             yield branch(self.frame_a, self.chord)
-        yield branch(self.ref, self.frame_b)
+        for frame in (self.frame_b, *self.frames_inner):
+            yield branch(self.ref, frame)
         yield potential_root(self.ref, priority=3)
 
     def equations(self):
@@ -133,16 +133,18 @@ class FlexibleBeam(Beam):
         force, moment, inertia = motion.inertia_forces()
         drag = motion.drag()
         balance = inertia.plus(motion.elastic()).plus(drag).entries()
+        for node, frame in motion.inner_frames():
+            yield from move(ref, frame, motion.place(node, motion.coordinates[0]), motion.rotation(node).orientation())
         load, balanced = motion.loads(t_a, f_b, t_b), self._balanced
         if self.reference == "pinned":  # phi of both ends is one coordinate
             balance[-1], load[-1] = balance[-1] - balance[5], load[-1] - load[5]
         if balanced:
             yield as_expr([balance[k] for k in balanced]) == as_expr([load[k] for k in balanced])  # (43)
-        moment_b = t_b + cross(r_b, f_b)
+        beyond, turning = motion.resultant(f_b, t_b)
         if balanced and self.reference == "tangent":
-            force, f_b, moment_b = self._without_tip_load(force, f_b, t_b, balance, drag.entries(), motion)
-        yield force == f_a + f_b  # (41)
-        yield moment == t_a + moment_b  # (42)
+            force, beyond, turning = self._without_tip_load(force, f_b, t_b, balance, drag.entries(), motion)
+        yield force == f_a + beyond  # (41)
+        yield moment == t_a + turning  # (42)
 
     @property
     def _balanced(self) -> list[int]:
@@ -152,29 +154,30 @@ class FlexibleBeam(Beam):
     def _without_tip_load(
         self, force: Any, f_b: Any, t_b: Any, balance: list[Any], drag: list[Any], motion: BeamMotion
     ) -> tuple[Any, ...]:
-        """Inertia force, tip force, and moment of the tip load about the root in (41) and (42), reduced by (43).
+        """Inertia force, force beyond the root, and its moment about the root in (41) and (42), reduced by (43).
 
-        The tip force is the sum of the balances (43) of all nodes except the root, the tip moment the balance of the last
-        node. This reduces the coupling of volumes in a chain.
+        The force beyond the root is the sum of the balances (43) of all other nodes, the tip moment the balance of the
+        last node. This reduces the coupling of volumes in a chain.
         """
-        rest, far, f, balanced = (
-            [force[k] for k in range(3)],
-            [f_b[k] for k in range(3)],
-            [f_b[k] for k in range(3)],
-            self._balanced,
-        )
-        last = NODE * self.elements
+        beyond, _ = motion.resultant(f_b, t_b)
+        rest, far, tip = ([x[k] for k in range(3)] for x in (force, beyond, f_b))
+        balanced, last = self._balanced, NODE * self.elements
         for axis, k in enumerate(TRANSLATIONS):
             if last + k in balanced:
-                f[axis], far[axis] = balance[last + k], as_expr(0.0)
+                far[axis] = as_expr(0.0)
                 rest[axis] = balance[k] - sum(drag[k::NODE], as_expr(0.0))
-        on = [balance[last + k] * self._l if last + k in balanced else as_expr(0.0) for k in SLOPES]
-        known, t = [last + k in balanced for k in SLOPES], t_b
+                if not motion.inner_frames():
+                    tip[axis] = balance[last + k]
+        known = [last + k in balanced for k in SLOPES]
+        on, t = (
+            [balance[last + k] * motion.l if found else as_expr(0.0) for k, found in zip(SLOPES, known, strict=True)],
+            t_b,
+        )
         if all(known):
             t = motion.rotation(-1).torque(on)
         elif known == [True, False, False]:
             t = as_expr((t_b[0], t_b[1], motion.rotation(-1).torque(on)[2]))
-        return as_expr(rest), as_expr(far), t + cross(motion.end(), as_expr(f))
+        return as_expr(rest), as_expr(far), motion.resultant(as_expr(tip), t)[1]
 
     def initial_equations(self):
         if self.initial != "free" and self.free:

@@ -35,6 +35,10 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
     loads = []
     for k in range(beam.elements, -1, -1):
         at = motion.place(k, U)
+        for node, frame in motion.inner_frames():
+            if node == k:
+                f, t = motion.inner_load(node, frame)
+                force, moment = force + f, moment + t + cross(at, f)
         loads.append((force, moment - cross(at, force)))
         if k:
             part = inertia.element(k - 1)

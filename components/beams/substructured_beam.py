@@ -56,6 +56,7 @@ class SubstructuredBeam(Beam):
                 damping=self.damping,
                 weight=self.weight,
                 distributed=self._loads_on(k),
+                frames_at=[x for _, x in self._inner_of(k)],
                 check_range=False,
             )
             for k in range(self.volumes)
@@ -72,6 +73,15 @@ class SubstructuredBeam(Beam):
         found = (load.part(k, self.volumes) for load in loads)
         return tuple(load for load in found if load is not None)
 
+    def _inner_of(self, k: int) -> list[tuple[int, float]]:
+        """Numbers of the inner frames within volume k, and their places x / length in it."""
+        n, found = self.elements_per_volume, []
+        for number, x in enumerate(self.frames_at):
+            volume, rest = divmod(self.node_at(x, self.volumes * n), n)
+            if volume == k and rest:
+                found.append((number, rest / n))
+        return found
+
     @property
     def frames(self) -> list[Any]:
         """The volumes."""
@@ -82,6 +92,13 @@ class SubstructuredBeam(Beam):
         if self.volumes > 1:
             yield chain(*self.volume)
         yield connect(self.volume[-1].frame_b, self.frame_b)
+        for x, frame in zip(self.frames_at, self.frames_inner, strict=True):
+            volume, rest = divmod(self.node_at(x, self.volumes * self.elements_per_volume), self.elements_per_volume)
+            if not rest:
+                yield connect(self.volume[volume].frame_a, frame)
+        for k, volume in enumerate(self.volume):
+            for (number, _), frame in zip(self._inner_of(k), volume.frames_inner, strict=True):
+                yield connect(frame, self.frames_inner[number])
 
     @observed
     def node_r_0(self):
