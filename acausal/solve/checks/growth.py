@@ -50,11 +50,11 @@ def growth_warnings(problem: Problem, at: Point, span: float) -> list[str]:
     rate, names = _growth(problem.compiled, numbers.tobytes())
     if rate * span <= 1:
         return []
-    stays = "stays" if len(names) == 1 else "stay"
+    stays, it = ("stays", "it") if len(names) == 1 else ("stay", "one of them")
     return [
-        f"{', '.join(f'`{name}`' for name in names)} {stays} 0 in this run, but the motion is unstable at t = {at.time:g} s: a "
-        f"disturbance across grows e-fold in {1 / rate:.3g} s. Do this: give a small start value or a force across, if the "
-        "machine may leave its plane."
+        f"{', '.join(f'`{name}`' for name in names)} {stays} 0 in this run, but that is unstable at t = {at.time:g} s: a "
+        f"disturbance would grow e-fold in {1 / rate:.3g} s. Do this: give {it} a small start value, or apply a force across, "
+        "unless the motion shall stay as it is."
     ]
 
 
