@@ -1,6 +1,7 @@
 """Scenes: example models, each in a file to copy and modify."""
 
 from acausal import Model
+from models.blade import Blade
 from models.bricard import Bricard
 from models.car_axis import CarAxis
 from models.fe_pendulum import FEPendulum
@@ -11,7 +12,10 @@ from models.free_vibration import FreeVibration
 from models.governor import Governor
 from models.n_four_bar import NFourBar
 from models.pendulum import FlexiblePendulum
+from models.right_angle_frame import RightAngleFrame
+from models.robot_arm import RobotArm
 from models.rolling_wheel_set_driving import RollingWheelSetDriving
+from models.shaft import Shaft
 from models.simple_pendulum import SimplePendulum
 from models.slider_crank import SliderCrank
 from models.spin_up import SpinUp
@@ -30,6 +34,10 @@ SCENES: dict[str, type[Model]] = {
     "car-axis": CarAxis,
     "four-bar": FourBar,
     "four-bar-spatial": FourBarSpatial,
+    "blade": Blade,
+    "right-angle-frame": RightAngleFrame,
+    "shaft": Shaft,
+    "robot-arm": RobotArm,
     "fe-pendulum": FEPendulum,
     "fe-plate": FEPlate,
     "rolling-wheel-set-driving": RollingWheelSetDriving,
@@ -37,6 +45,7 @@ SCENES: dict[str, type[Model]] = {
 
 __all__ = [
     "SCENES",
+    "Blade",
     "Bricard",
     "CarAxis",
     "FEPendulum",
@@ -47,7 +56,10 @@ __all__ = [
     "FreeVibration",
     "Governor",
     "NFourBar",
+    "RightAngleFrame",
+    "RobotArm",
     "RollingWheelSetDriving",
+    "Shaft",
     "SimplePendulum",
     "SliderCrank",
     "SpinUp",

@@ -13,10 +13,6 @@ class RightAngleFrame(Model):
     """Legs of 10 m; the root is clamped, the force at the elbow grows to 50 N within 1 s and vanishes after 2 s."""
 
     stop_time = 10.0
-    formulations = ac.with_and_without(
-        ac.Formulation("volumes", {}, {"volumes": (2, 4, 8, 16)}, exact=True),
-        stiffened=("first.geometric_stiffness", "second.geometric_stiffness"),
-    )
     volumes: int = structural("volumes of a leg", default=8, minimum=1)
     world, elbow = World(gravity=None), FixedRotation(n=(0, 0, 1), angle=pi / 2)
     pulse = WorldForce(force=(0, 0, piecewise((50 * time, time < 1), (50 * (2 - time), time < 2), 0)))

@@ -10,7 +10,7 @@ from acausal import Model, chain, connect, fixed, part, structural
 from components import Body, FlexibleBeam, Spherical, SubstructuredBeam, World, WorldForceAndTorque
 from tests.components.beams_in_space.scenes import beam_of
 
-RUBBER = {"length": 1.0, "E": 4e5, "G": 1.6e5, "rho": 1e3, "A": 1e-3, "J": 2e-6, "J_y": 1e-6, "J_t": 1.5e-6}
+RUBBER: dict = {"length": 1.0, "E": 4e5, "G": 1.6e5, "rho": 1e3, "A": 1e-3, "J": 2e-6, "J_y": 1e-6, "J_t": 1.5e-6}
 BODY = {"m": 0.3, "r_CM": (0.02, 0.03, -0.01), "I": np.diag([2e-3, 3e-3, 4e-3])}
 
 

@@ -25,7 +25,7 @@ def gram(weight: Any, left: list[Polynomial], right: list[Polynomial], order: in
     return (a * (W * weight(X))) @ b.T
 
 
-def lowest(K: np.ndarray, M: np.ndarray, count: int = 3) -> np.ndarray:
+def lowest(K: Any, M: Any, count: int = 3) -> np.ndarray:
     return np.sqrt(eigh(K, M)[0][:count])
 
 
