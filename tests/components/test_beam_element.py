@@ -4,37 +4,38 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from components.beams.element import element_matrices
+from components.beams.element import beam_matrices, places
 
 xi = sp.Symbol("xi")
-ALONG = (1 - xi, 0, 0, xi, 0, 0, xi * (1 - xi))
-ACROSS = (0, 1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3, 0, 3 * xi**2 - 2 * xi**3, xi**3 - xi**2, 0)
+ALONG = (1 - xi, xi, xi * (1 - xi))
+ACROSS = (1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3, 3 * xi**2 - 2 * xi**3, xi**3 - xi**2)
 
 
-def vector(row, weight):
-    return [float(sp.integrate(s * weight, (xi, 0, 1))) for s in row]
+def matrix(left, right):
+    return np.array([[float(sp.integrate(p * q, (xi, 0, 1))) for q in right] for p in left])
 
 
-def matrix(left, right, order=0):
-    return [
-        [float(sp.integrate(sp.diff(p, xi, order) * sp.diff(q, xi, order), (xi, 0, 1))) for q in right] for p in left
-    ]
+def expected(bubble):
+    along = ALONG[: 2 + bubble]
+    return {"along": matrix(along, along), "mixed": matrix(along, ACROSS), "across": matrix(ACROSS, ACROSS)}
 
 
 @pytest.mark.parametrize("bubble", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_integrals_are_exact(bubble):
-    along, across = ALONG[: 6 + bubble], ACROSS[: 6 + bubble]
-    expected = {
-        "s1": vector(along, 1),
-        "s2": vector(across, 1),
-        "x1": vector(along, xi),
-        "x2": vector(across, xi),
-        "M11": matrix(along, along),
-        "M12": matrix(along, across),
-        "M22": matrix(across, across),
-        "K_axial": matrix(along, along, 1),
-        "K_bending": matrix(across, across, 2),
-        "G": matrix(across, across, 1),
-    }
-    for name, numbers in expected.items():
-        np.testing.assert_array_equal(getattr(element_matrices(bubble), name), numbers, err_msg=name)
+    own, (along, across) = beam_matrices(1, bubble), places(0, 1, bubble)
+    at = {"along": (along, along), "mixed": (along, across), "across": (across, across)}
+    for name, numbers in expected(bubble).items():
+        np.testing.assert_array_equal(getattr(own, name)[np.ix_(*at[name])], numbers, err_msg=name)
+
+
+@pytest.mark.parametrize("bubble", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_elements_add_up(bubble):
+    """Every coordinate belongs to the elements beside its node, a bubble to its own element."""
+    whole, one, n = beam_matrices(3, bubble), expected(bubble), 4
+    totals = {name: np.zeros_like(getattr(whole, name)) for name in one}
+    for j in range(3):
+        along, across = [j, j + 1, *[n + j] * bubble], [j, n + j, j + 1, n + j + 1]
+        for name, rows, columns in (("along", along, along), ("mixed", along, across), ("across", across, across)):
+            totals[name][np.ix_(rows, columns)] += one[name]
+    for name, total in totals.items():
+        np.testing.assert_allclose(getattr(whole, name), total, rtol=1e-15, err_msg=name)

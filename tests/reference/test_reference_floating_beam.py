@@ -11,10 +11,10 @@ BEAM = (LENGTH, RHO_A)
 def smooth_motion(elements, root_moves, seed=3):
     """Frame velocities v(t), w(t) and nodal q(t), on frame axes, each with its derivatives."""
     rng = np.random.default_rng(seed)
-    n = 3 * (elements + 1)
+    n = 6 * (elements + 1)
     amplitude, rate, phase = rng.normal(size=n) * 0.2, rng.uniform(1, 3, n), rng.uniform(0, 6, n)
     if not root_moves:
-        amplitude[:3] = 0
+        amplitude[:6] = 0
     frame = rng.normal(size=(3, 6)), rng.uniform(1, 3, 6)
 
     def velocities(t):
@@ -80,14 +80,14 @@ def test_point_accelerations_against_positions_in_space():
     """Force on the whole beam from second differences of inertial positions, no formula of relative motion."""
     elements, spin, step = 2, np.array([0.5, -1.2, 0.8]), 1e-3
     rng = np.random.default_rng(5)
-    c0, c1, c2 = rng.normal(size=(3, 9)) * 0.1
+    c0, c1, c2 = rng.normal(size=(3, 18)) * 0.1
     origin = rng.normal(size=3)
 
     def centre(t):
         # R(t) = R(spin t): constant angular velocity; the origin runs along a parabola.
         q, turn = c0 + c1 * t + c2 * t**2 / 2, Rotation.from_rotvec(spin * t)
-        momentum, _ = floating_beam.momenta(*BEAM, elements, np.zeros(9), q, np.zeros(3), np.zeros(3))
-        rest, _ = floating_beam.momenta(*BEAM, elements, np.zeros(9), np.zeros(9), [0.5, 0, 0], np.zeros(3))
+        momentum, _ = floating_beam.momenta(*BEAM, elements, np.zeros(18), q, np.zeros(3), np.zeros(3))
+        rest, _ = floating_beam.momenta(*BEAM, elements, np.zeros(18), np.zeros(18), [0.5, 0, 0], np.zeros(3))
         mass_position = momentum + rest * LENGTH  # sum of dm u: S q stands for u in the momentum of qd = q
         return turn.apply(mass_position) + BEAM[0] * BEAM[1] * origin * t**2 / 2
 
@@ -99,7 +99,7 @@ def test_point_accelerations_against_positions_in_space():
 def test_rigid_limit_is_newton_euler_of_a_rod():
     rng = np.random.default_rng(1)
     a, z, w, g = rng.normal(size=(4, 3))
-    mass, centre, still = RHO_A * LENGTH, np.array([LENGTH / 2, 0, 0]), np.zeros(12)
+    mass, centre, still = RHO_A * LENGTH, np.array([LENGTH / 2, 0, 0]), np.zeros(24)
     inertia = np.diag([TORSION, mass * LENGTH**2 / 3, mass * LENGTH**2 / 3])
     force, moment, _ = floating_beam.inertia_forces(*BEAM, 3, still, still, still, a, z, w, g, TORSION)
     np.testing.assert_allclose(force, mass * (a - g + np.cross(z, centre) + np.cross(w, np.cross(w, centre))))
@@ -110,45 +110,74 @@ def test_rigid_limit_is_newton_euler_of_a_rod():
     assert energy == pytest.approx(mass * v @ v / 2 + mass * v @ np.cross(w, centre) + w @ inertia @ w / 2)
 
 
+STIFFNESS = 700.0, 40.0, 90.0, 15.0  # EA, EJ_z, EJ_y, GJ_t
+
+
 @pytest.mark.parametrize("elements", [1, 4])
 def test_frame_fixed_beam_has_the_textbook_matrices(elements):
-    n, EA, EJ = 3 * (elements + 1), 700.0, 40.0
+    n = 6 * (elements + 1)
     zero, still = np.zeros(3), np.zeros(n)
-    M = np.array([floating_beam.inertia_forces(*BEAM, elements, still, still, e, *[zero] * 4)[2] for e in np.eye(n)])
-    K = np.array([floating_beam.stiffness_forces(LENGTH, EA, EJ, elements, e) for e in np.eye(n)])
-    mass, stiffness = cantilever.bending_matrices(LENGTH, RHO_A, EJ, elements)
-    bending = [i for i in range(3, n) if i % 3]
-    np.testing.assert_allclose(M[np.ix_(bending, bending)], mass, atol=1e-13)
-    np.testing.assert_allclose(K[np.ix_(bending, bending)], stiffness, atol=1e-9)
+    M = [
+        floating_beam.inertia_forces(*BEAM, elements, still, still, e, *[zero] * 4, torsional_inertia=TORSION)[2]
+        for e in np.eye(n)
+    ]
+    M, K = np.array(M), np.array([floating_beam.stiffness_forces(LENGTH, STIFFNESS, elements, e) for e in np.eye(n)])
+    groups = [[i for i in range(6, n) if i % 6 in kinds] for kinds in ((0,), (1, 2), (3, 4), (5,))]
+    for group, EJ in zip(groups[1:3], STIFFNESS[1:3], strict=True):
+        mass, stiffness = cantilever.bending_matrices(LENGTH, RHO_A, EJ, elements)
+        np.testing.assert_allclose(M[np.ix_(group, group)], mass, atol=1e-13)
+        np.testing.assert_allclose(K[np.ix_(group, group)], stiffness, atol=1e-9)
     h = LENGTH / elements
-    np.testing.assert_allclose(K[0, [0, 3]], [EA / h, -EA / h])
-    np.testing.assert_allclose(M[0, [0, 3]], [RHO_A * h / 3, RHO_A * h / 6])
-    assert np.abs(K[::3][:, bending]).max() == 0
+    for k, per_length, stiff in ((0, RHO_A, STIFFNESS[0]), (5, TORSION / LENGTH, STIFFNESS[3])):
+        np.testing.assert_allclose(K[k, [k, 6 + k]], [stiff / h, -stiff / h])
+        np.testing.assert_allclose(M[k, [k, 6 + k]], [per_length * h / 3, per_length * h / 6])
+    for one in groups:
+        rest = [i for i in range(6, n) if i not in one]
+        assert np.abs(K[np.ix_(one, rest)]).max() == np.abs(M[np.ix_(one, rest)]).max() == 0
+
+
+@pytest.mark.parametrize("elements", [1, 4])
+def test_micro_energy_is_half_of_lumped_less_consistent(elements):
+    n = 6 * (elements + 1)
+    qd, still, zero = np.random.default_rng(7).normal(size=n), np.zeros(n), np.zeros(3)
+    qd[[i for i in range(n) if i % 6 not in (0, 5)]] = 0
+    consistent = floating_beam.kinetic_energy(*BEAM, elements, still, qd, zero, zero, TORSION)
+    ends = np.ones(elements + 1)
+    ends[[0, -1]] = 1 / 2
+    rates = qd.reshape(-1, 6)
+    lumped = ends @ (RHO_A * LENGTH * rates[:, 0] ** 2 + TORSION * rates[:, 5] ** 2) / (2 * elements)
+    found = floating_beam.micro_energy(*BEAM, elements, qd, TORSION)
+    assert found == pytest.approx((lumped - consistent) / 2)
 
 
 def test_rigid_displacements_cost_no_elastic_energy_and_stiffness_is_its_gradient():
-    elements, EA, EJ = 3, 700.0, 40.0
-    nodes = np.linspace(0, LENGTH, 4)
-    rigid = np.column_stack([np.full(4, 0.2), 0.1 + 0.3 * nodes, np.full(4, 0.3)]).ravel()
-    np.testing.assert_allclose(floating_beam.stiffness_forces(LENGTH, EA, EJ, elements, rigid), 0, atol=1e-11)
-    q = np.random.default_rng(2).normal(size=12)
+    elements = 3
+    nodes, one = np.linspace(0, LENGTH, 4), np.ones(4)
+    rigid = np.column_stack([0.2 * one, 0.1 + 0.3 * nodes, 0.3 * one, 0.4 - 0.5 * nodes, -0.5 * one, 0.6 * one]).ravel()
+    np.testing.assert_allclose(floating_beam.stiffness_forces(LENGTH, STIFFNESS, elements, rigid), 0, atol=1e-11)
+    q = np.random.default_rng(2).normal(size=24)
     gradient = [
-        slope(lambda e, d=d: floating_beam.elastic_energy(LENGTH, EA, EJ, elements, q + e * d), 0.0) for d in np.eye(12)
+        slope(lambda e, d=d: floating_beam.elastic_energy(LENGTH, STIFFNESS, elements, q + e * d), 0.0)
+        for d in np.eye(24)
     ]
-    np.testing.assert_allclose(floating_beam.stiffness_forces(LENGTH, EA, EJ, elements, q), gradient, rtol=1e-7)
+    np.testing.assert_allclose(floating_beam.stiffness_forces(LENGTH, STIFFNESS, elements, q), gradient, rtol=1e-7)
 
 
 def test_shape_interpolates_the_nodes():
-    q = np.random.default_rng(4).normal(size=12)
+    q = np.random.default_rng(4).normal(size=24)
     for i, x in enumerate(np.linspace(0, LENGTH, 4)):
-        np.testing.assert_allclose(floating_beam.shape(LENGTH, 3, x) @ q, [q[3 * i], q[3 * i + 1], 0], atol=1e-12)
-    rotation = slope(lambda x: floating_beam.shape(LENGTH, 3, x, 0) @ q, 0.0)[1]
-    assert rotation == pytest.approx(q[2])
+        np.testing.assert_allclose(floating_beam.shape(LENGTH, 3, x) @ q, q[6 * i + np.array([0, 1, 3])], atol=1e-12)
+    rotation = slope(lambda x: floating_beam.shape(LENGTH, 3, x, 0) @ q, 0.0)[1:]
+    assert rotation == pytest.approx(q[[2, 4]])
+    rows = np.random.default_rng(5).normal(size=(2, 3, 6))
+    np.testing.assert_array_equal(
+        floating_beam.nodal(rows)[1, 6:12], rows[1, 1, [0, 1, 5, 2, 4, 3]] * [1, 1, 1, 1, -1, 1]
+    )
 
 
 def test_gravity_is_an_acceleration_upwards():
     rng = np.random.default_rng(6)
-    q, qd, qdd = rng.normal(size=(3, 9))
+    q, qd, qdd = rng.normal(size=(3, 18))
     a, z, w, g = rng.normal(size=(4, 3))
     weighed = floating_beam.inertia_forces(*BEAM, 2, q, qd, qdd, a, z, w, g)
     lifted = floating_beam.inertia_forces(*BEAM, 2, q, qd, qdd, a - g, z, w, np.zeros(3))
