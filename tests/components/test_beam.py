@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
+from scipy.spatial.transform import Rotation
 
 import acausal as ac
 from acausal import Model, chain, connect, fixed, part, structural
@@ -26,7 +28,7 @@ from tests.shared import pairwise
 LENGTH, E, RHO, A, J = 2.0, 72e9, 2700.0, 1e-4, 1e-8 / 12
 ALUMINIUM = {"length": LENGTH, "E": E, "rho": RHO, "A": A, "J": J}
 RUBBER = {"length": 1.0, "E": 1e7, "rho": 1000.0, "A": 1e-3, "J": 1e-7}
-SIDES = ("tangent", "pinned"), (False, True)
+PLANAR = {"bending": "xy", "torsion": False}
 MASS = RUBBER["rho"] * RUBBER["A"] * RUBBER["length"]
 
 
@@ -52,24 +54,44 @@ class Cantilever(Model):
 
 
 def bending(count: int, **kind: Any) -> np.ndarray:
+    """First frequencies of bending in one plane."""
     turned, volumes = kind.pop("turned", False), kind.pop("volumes", 0)
-    model = Cantilever(kind=ALUMINIUM | kind, turned=turned, volumes=volumes)
+    model = Cantilever(kind=ALUMINIUM | PLANAR | kind, turned=turned, volumes=volumes)
     return ac.linearize(model).frequencies_hz[:count]
 
 
-def test_frequencies_are_those_of_the_finite_elements():
-    found = ac.linearize(Cantilever(kind=ALUMINIUM | {"elements": 3})).frequencies_hz
-    across = cantilever.element_frequencies(LENGTH, RHO * A, E * J, 3)
-    h = LENGTH / 3
-    M = RHO * A * h / 6 * np.array([[4, 1, 0], [1, 4, 1], [0, 1, 2]])
-    K = E * A / h * np.array([[2, -1, 0], [-1, 2, -1], [0, -1, 1]])
-    along = np.sqrt(np.linalg.eigvals(np.linalg.solve(M, K)).real)
-    np.testing.assert_allclose(found, np.sort([*across, *along]) / (2 * np.pi), rtol=1e-7)
+def rod_frequencies(elements: int, inertia: float, stiffness: float) -> np.ndarray:
+    """Angular frequencies of linear elements, clamped at the root, with the mean of consistent and lumped masses.
+
+    Parameters
+    ----------
+    inertia, stiffness : float
+        Of an element: mass or moment of inertia, and axial or torsional stiffness.
+    """
+    M = np.zeros((elements + 1, elements + 1))
+    K = np.zeros_like(M)
+    for j in range(elements):
+        M[j : j + 2, j : j + 2] += inertia / 12 * np.array([[5, 1], [1, 5]])
+        K[j : j + 2, j : j + 2] += stiffness * np.array([[1, -1], [-1, 1]])
+    return np.sqrt(eigh(K[1:, 1:], M[1:, 1:], eigvals_only=True))
+
+
+@pytest.mark.parametrize("reference", ["tangent", "pinned"])
+def test_frequencies_are_those_of_the_finite_elements(reference):
+    J_y, J_t, G, n = 3 * J, 0.7 * J, 27e9, 3
+    kind = ALUMINIUM | {"elements": n, "J_y": J_y, "J_t": J_t, "G": G, "reference": reference}
+    found = ac.linearize(Cantilever(kind=kind)).frequencies_hz
+    across = [cantilever.element_frequencies(LENGTH, RHO * A, E * I, n) for I in (J, J_y)]
+    h = LENGTH / n
+    along, about = rod_frequencies(n, RHO * A * h, E * A / h), rod_frequencies(n, RHO * (J + J_y) * h, G * J_t / h)
+    np.testing.assert_allclose(found, np.sort([*across[0], *across[1], *along, *about]) / (2 * np.pi), rtol=1e-7)
 
 
 def test_frequencies_of_free_vibration():
-    found = ac.linearize(FreeVibration()).frequencies_hz[:5]
-    np.testing.assert_allclose(found, [2.08547509, 13.06987071, 36.60412252, 71.77955026, 118.84259392], atol=1e-7)
+    """Those of the square section occur in both planes."""
+    found = ac.linearize(FreeVibration()).frequencies_hz[:10]
+    expected = np.repeat([2.08547509, 13.06987071, 36.60412252, 71.77955026, 118.84259392], 2)
+    np.testing.assert_allclose(found, expected, atol=1e-7)
 
 
 def test_frequencies_converge_with_the_fourth_power_of_the_element():
@@ -92,8 +114,14 @@ def test_frequencies_converge_with_the_fourth_power_of_the_element():
     ),
 )
 def test_reference_direction_and_substructuring_do_not_change_frequencies(reference, turned, shape):
-    expected = cantilever.element_frequencies(LENGTH, RHO * A, E * J, 4)[:4] / (2 * np.pi)
-    np.testing.assert_allclose(bending(4, reference=reference, turned=turned, **shape), expected, rtol=1e-7)
+    """In both planes, of a section that is stiffer in xz, and in torsion: a shaft as soft as a thread, the lowest ones."""
+    both = [cantilever.element_frequencies(LENGTH, RHO * A, E * I, 4)[:4] for I in (J, 3 * J)]
+    soft = {"J_y": 3 * J, "J_t": J / 4e3, "torsional_inertia": 4 * RHO * J * LENGTH}
+    about = rod_frequencies(4, RHO * J * LENGTH, E / 2.6 * J / 4e3 * 4 / LENGTH)
+    expected = np.sort([*both[0], *both[1], *about])[:8] / (2 * np.pi)
+    assert about[1] / (2 * np.pi) < expected[-1]
+    found = bending(8, reference=reference, turned=turned, bending="both", torsion=True, **soft, **shape)
+    np.testing.assert_allclose(found, expected, rtol=1e-7)
 
 
 FORCE, MOMENT = np.array([3.0, 0.02, 0.7]), np.array([0.1, -0.2, 0.03])
@@ -116,16 +144,38 @@ def loaded(volumes: int = 0, turned: bool = False, **kind: Any) -> ac.Result:
     return ac.simulate(model, stop_time=0.1, tolerance=1e-8, intervals=2)
 
 
+def turned_by(c: np.ndarray) -> Rotation:
+    """Section of slopes v', w' and the angle phi: the rotation vector is (phi, -w', v'), up to the second order."""
+    v, w, phi = c
+    return Rotation.from_euler("ZYX", [v - w * phi / 2, -(w + v * phi / 2), phi - v * w / 2])
+
+
+def on_slopes(c: np.ndarray, torque: np.ndarray, step: float = 1e-6) -> np.ndarray:
+    """Generalised forces of a torque on v', w' and phi, by its virtual work."""
+    ends = [[(turned_by(c + sign * e) * turned_by(c).inv()).as_rotvec() for sign in (1, -1)] for e in step * np.eye(3)]
+    return np.array([torque @ (ahead - behind) for ahead, behind in ends]) / (2 * step)
+
+
 def test_static_deflection():
-    result = loaded(elements=4)
-    x = np.linspace(0, LENGTH, 5)
-    v, slope = cantilever.tip_force_deflection(x, LENGTH, E * J, FORCE[1])
-    v, slope = v + MOMENT[2] * x**2 / (2 * E * J), slope + MOMENT[2] * x / (E * J)
-    expected = np.column_stack([FORCE[0] * x / (E * A), v, slope])
+    """Linear theory in both planes and in torsion, where the torque works on the angles of the turned section."""
+    result, x, on = loaded(elements=4), np.linspace(0, LENGTH, 5), MOMENT
+    for _ in range(20):
+        across = []
+        for force, torque in zip(FORCE[1:], on[:2], strict=True):
+            v, slope = cantilever.tip_force_deflection(x, LENGTH, E * J, force)
+            across.append((v + torque * x**2 / (2 * E * J), slope + torque * x / (E * J)))
+        phi = on[2] * x / (E / 2.6 * 2 * J)
+        on = on_slopes(np.array([across[0][1][-1], across[1][1][-1], phi[-1]]), MOMENT)
+    (v, slope_v), (w, slope_w) = across
+    expected = np.column_stack([FORCE[0] * x / (E * A), v, w, phi, -slope_w, slope_v])
+    nodes = result["beam.node_deflection"]
     for k in (0, -1):  # at the start, and it stays so
-        np.testing.assert_allclose(result["beam.node_deflection"][k], expected, rtol=1e-6, atol=1e-12)
-    np.testing.assert_allclose(result["beam.node_r_0"][0][:, 0], x + expected[:, 0], atol=1e-12)
-    np.testing.assert_allclose(result["beam.node_r_0"][0][:, 1], v, atol=1e-12)
+        np.testing.assert_allclose(nodes[k], expected, rtol=1e-6, atol=1e-12)
+    assert (np.abs(expected[-1]) > 5e-7).all()
+    straight = np.column_stack([x, 0 * x, 0 * x])
+    np.testing.assert_allclose(result["beam.node_r_0"][0], straight + expected[:, :3], atol=1e-9)
+    tip = result["beam.frame_b.R.T"][0]
+    np.testing.assert_allclose(tip.T, turned_by(np.array([slope_v[-1], slope_w[-1], phi[-1]])).as_matrix(), atol=1e-8)
 
 
 @pytest.mark.parametrize(
@@ -212,8 +262,9 @@ def test_force_between_nodes_is_the_momentum_of_the_element():
     for j in range(3):
         left, right = q[:, j], q[:, j + 1]
         along = (j + 0.5) * l + (left[:, 0] + right[:, 0]) / 2
-        across = (left[:, 1] + right[:, 1]) / 2 + l * (left[:, 2] - right[:, 2]) / 12
-        local = np.column_stack([along, across, np.zeros(len(q))])
+        v = (left[:, 1] + right[:, 1]) / 2 + l * (left[:, 5] - right[:, 5]) / 12
+        w = (left[:, 2] + right[:, 2]) / 2 - l * (left[:, 4] - right[:, 4]) / 12
+        local = np.column_stack([along, v, w])
         centre = result["beam.frame_a.r_0"] + np.einsum("kji,kj->ki", T, local)
         acceleration = (centre[2:] - 2 * centre[1:-1] + centre[:-2]) / step**2
         jump = result["beam.node_force"][:, j + 1] - result["beam.node_force"][:, j]
@@ -224,53 +275,26 @@ def test_force_between_nodes_is_the_momentum_of_the_element():
         np.testing.assert_allclose(found, expected, atol=2e-3 * scale)
 
 
-class Twisted(Model):
-    """A torque about the axis of a straight beam that nothing holds."""
-
-    kind = structural("values of the beam", default=None)
-    world = World(gravity=None)
-    hinge = Revolute(n=(1, 0, 0), phi=fixed(0.0), w=fixed(0.0))
-    torque = WorldTorque(torque=(0.4, 0.0, 0.0))
-
-    @part
-    def beam(self):
-        """The beam."""
-        return FlexibleBeam(**RUBBER, **self.kind)
-
-    def connections(self):
-        yield chain(self.world, self.hinge, self.beam)
-        yield connect(self.torque.frame_b, self.beam.frame_b)
-
-
-@pytest.mark.parametrize("reference", ["tangent", "pinned"])
-@pytest.mark.parametrize(
-    ("given", "inertia"),
-    [({}, 2 * 1000.0 * 1e-7), ({"J_y": 3e-7}, 1000.0 * 4e-7), ({"torsional_inertia": 0.02, "J_y": 3e-7}, 0.02)],
-)
-def test_torsional_inertia(reference, given, inertia):
-    result = ac.simulate(Twisted(kind={"reference": reference, **given}), stop_time=0.1, intervals=2)
-    np.testing.assert_allclose(result["hinge.a"], 0.4 / inertia, rtol=1e-9)
-    np.testing.assert_allclose(result["beam.torsional_inertia"], inertia, rtol=1e-12)
-
-
-def test_torsional_inertia_is_shared_by_the_volumes():
-    result = ac.simulate(Swing(kind={}, volumes=4), stop_time=0.01, intervals=1)
-    shares = [result[f"beam.volume[{k}].torsional_inertia"][0] for k in range(4)]
-    np.testing.assert_allclose(shares, 2 * 1000.0 * 1e-7 / 4, rtol=1e-12)
-
-
 @pytest.mark.parametrize(
     # In volumes, alpha would damp the motion of each in its own frame.
     ("alpha", "beta", "volumes"),
     [(0.8, 0.0, 0), (0.0, 1e-5, 0), (0.8, 1e-5, 0), (0.0, 1e-5, 3)],
 )
 def test_rayleigh_damping(alpha, beta, volumes):
-    kind = ALUMINIUM | {"alpha": alpha, "beta": beta} | ({} if volumes else {"elements": 3})
+    """In both planes, of a section that is stiffer in xz; torsion of lower stiffness is damped by beta as well."""
+    kind = ALUMINIUM | {"alpha": alpha, "beta": beta, "J_y": 3 * J} | ({} if volumes else {"elements": 3})
+    w = np.concatenate([cantilever.element_frequencies(LENGTH, RHO * A, E * I, 3)[:4] for I in (J, 3 * J)])
+    if alpha:
+        kind["torsion"] = False
+    else:
+        polar = 400 * RHO * J * LENGTH
+        kind["torsional_inertia"] = polar
+        w = np.r_[w, rod_frequencies(3, polar / 3, E / 2.6 * 4 * J * 3 / LENGTH)]
+    w = np.sort(w)[:8]
     found = ac.linearize(Cantilever(kind=kind, volumes=volumes))
-    w = cantilever.element_frequencies(LENGTH, RHO * A, E * J, 3)[:4]
     expected = alpha / (2 * w) + beta * w / 2
-    np.testing.assert_allclose(found.damping_ratios[:4], expected, rtol=1e-5)
-    np.testing.assert_allclose(found.frequencies_hz[:4] * 2 * np.pi, w * np.sqrt(1 - expected**2), rtol=1e-6)
+    np.testing.assert_allclose(found.damping_ratios[:8], expected, rtol=1e-5)
+    np.testing.assert_allclose(found.frequencies_hz[:8] * 2 * np.pi, w * np.sqrt(1 - expected**2), rtol=1e-6)
 
 
 class Entered(Model):
