@@ -27,6 +27,7 @@ from tests.reference import cantilever, elastica, floating_beam, rotating_beam
 
 # Length, mass per length and bending stiffness are 1.
 UNIT = {"length": 1.0, "E": 1.0, "rho": 1.0, "A": 1.0, "J": 1.0, "torsional_inertia": 1e-6, "axial": "none"}
+PLANAR = {"bending": "xy", "torsion": False}
 STIFFENED = {"elements": 4, "geometric_stiffness": True}
 LONG = {"E": 1e6, "J": 1e-6, "A": 1.0}  # EA = 1e6
 Z, Y = (0, 0, 1), (0, 1, 0)
@@ -35,29 +36,6 @@ Z, Y = (0, 0, 1), (0, 1, 0)
 def make(kind: dict[str, Any], **more: Any) -> FlexibleBeam | SubstructuredBeam:
     values = UNIT | more | kind
     return SubstructuredBeam(**values) if "volumes" in values else FlexibleBeam(**values)
-
-
-@pytest.mark.parametrize("seed", [0, 1])
-def test_shortening_and_its_place(seed):
-    """Against quadrature of v'^2 / 2 over material points; what is left is of fourth order in the slope."""
-    size, elements, length = 1e-4, 2, 1.4
-    rng = np.random.default_rng(seed)
-    q = size * rng.normal(size=9) * np.tile([0, 1, 1], 3)
-    l = length / elements
-    U, points = q * np.tile([1, 1, l], 3), np.polynomial.legendre.leggauss(6)
-    strain = Strain(elements, l, 1.0, 1.0, 0.0, True)
-    shortening = [g for g, _, _ in strain.shortening(as_expr(U), as_expr(U), as_expr(U))]
-    bubbles = [strain.bubble(as_expr(U), j) for j in range(elements)]
-    found = np.array(ca.DM(ca.vertcat(*[value.sx for value in shortening + bubbles]))).ravel()
-    expected = np.zeros(4)
-    for j in range(elements):
-        for point, weight in zip(*points, strict=True):
-            at, h = l * (j + (1 + point) / 2), 1e-6
-            right, left = (floating_beam.shape(length, elements, x, j)[1] @ q for x in (at + h, at - h))
-            f = ((right - left) / (2 * h)) ** 2 / 2
-            expected[[j, elements + j]] += l * weight / 2 * f * np.array([1, 3 * point])
-    np.testing.assert_allclose(found, expected, atol=100 * size**4)
-    assert np.abs(expected).min() > size**2 / 1000
 
 
 class Turning(Model):
@@ -78,10 +56,30 @@ class Turning(Model):
 
 
 def turning(n: tuple, speeds: tuple[float, ...], **kind: Any) -> np.ndarray:
-    """Errors of the first three frequencies, one row a speed."""
-    compiled = ac.compile(Turning(n=n, kind={"geometric_stiffness": True} | kind))
+    """Errors of the first three frequencies of bending in xy, one row a speed."""
+    compiled = ac.compile(Turning(n=n, kind=PLANAR | {"geometric_stiffness": True} | kind))
     found = [ac.linearize(compiled, parameters={"speed": s}).frequencies_hz[:3] * 2 * np.pi for s in speeds]
     return np.array(found) / [rotating_beam.frequencies(s, n == Z, 3) for s in speeds] - 1
+
+
+@pytest.mark.parametrize("n", [Z, pytest.param(Y, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "kind", [{"elements": 4}, pytest.param({"elements": 4, "reference": "pinned"}, marks=pytest.mark.slow)]
+)
+def test_both_planes_of_a_turning_beam_bend_alike(n, kind):
+    """Each as alone: in the plane of rotation, and across it; what bends less by EJ_y = 2 has the frequencies of its own."""
+    both = {"J_y": 2.0, "torsional_inertia": 1e-6, "J_t": 1.0, "bending": "both", "torsion": True}
+    for speed in (1.0, 6.0):
+        model = Turning(n=n, kind={"geometric_stiffness": True} | kind | both, speed=speed)
+        found = ac.linearize(model).frequencies_hz[:4] * 2 * np.pi
+        root = np.sqrt(2.0)  # unit of time of the stiffer plane
+        xy = rotating_beam.frequencies(speed, n == Z, 3)
+        xz = rotating_beam.frequencies(speed / root, n == Y, 3) * root
+        expected = np.sort([*xy, *xz])[:4]
+        np.testing.assert_allclose(found, expected, rtol=1.5e-3)
+        alone = ac.linearize(Turning(n=n, kind=PLANAR | {"geometric_stiffness": True} | kind, speed=speed))
+        for frequency in alone.frequencies_hz[:2] * 2 * np.pi:
+            assert np.abs(found - frequency).min() < 1e-8 * frequency
 
 
 @pytest.mark.parametrize("n", [Z, pytest.param(Y, marks=pytest.mark.slow)])
@@ -117,7 +115,7 @@ def test_frequencies_of_a_turning_beam_in_every_formulation(n, kind):
 def test_without_its_part_of_the_centrifugal_force_both_planes_are_alike():
     """The straight beam's centrifugal force stiffens; the part that grows with the deflection pulls it outwards."""
     kept, removed, across = (
-        ac.linearize(Turning(n=n, kind=STIFFENED | {"centrifugal": on}, speed=3.0)).frequencies_hz[:4] * 2 * np.pi
+        ac.linearize(Turning(n=n, kind=PLANAR | STIFFENED | {"centrifugal": on}, speed=3.0)).frequencies_hz[:4] * 2 * np.pi
         for n, on in ((Z, True), (Z, False), (Y, True))
     )
     np.testing.assert_allclose(removed, across, rtol=1e-9)
@@ -186,9 +184,10 @@ def test_buckling(model, kind, critical):
 def test_tension_raises_frequencies():
     k = np.arange(1, 3) * np.pi
     for force in (10.0, -5.0):
-        found = ac.linearize(Hinged(kind=STIFFENED | {"elements": 8}, force=force)).frequencies_hz[:2] * 2 * np.pi
+        kind = PLANAR | {"elements": 8}
+        found = ac.linearize(Hinged(kind=STIFFENED | kind, force=force)).frequencies_hz[:2] * 2 * np.pi
         np.testing.assert_allclose(found**2, k**4 + force * k**2, rtol=2e-3)
-        linear = ac.linearize(Hinged(kind={"elements": 8}, force=force)).frequencies_hz[:2] * 2 * np.pi
+        linear = ac.linearize(Hinged(kind=kind, force=force)).frequencies_hz[:2] * 2 * np.pi
         np.testing.assert_allclose(linear**2, k**4, rtol=2e-3)
 
 
