@@ -91,10 +91,11 @@ class Elasticity:
         on = strain.pull(e, N).plus(self._linear(e, ed))
         at_first = at_last = 0.0 * N
         if self.twists:
-            torque = strain.stiffness.GJ_t / l * (self._torsion(U, e) + self.beta * strain.twist(Ud))
+            elastic = strain.stiffness.GJ_t / l * self._torsion(U, e)
+            torque = elastic + strain.stiffness.GJ_t / l * self.beta * strain.twist(Ud)
             at_first, at_last = at_first - torque, at_last + torque
             if strain.second_order:
-                half = torque / (2 * l * l)
+                half = elastic / (2 * l * l)
                 turn = e.q.quarter_turn().times(half)
                 across = e.d.plus(e.r.times(1 / 2)).quarter_turn()
                 on = on.plus(Bend(turn, across.times(-half), turn.times(1 / 2)))
