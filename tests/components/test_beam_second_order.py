@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import casadi as ca
 import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, as_expr, chain, connect, parameter, part, structural, time
+from acausal import Model, Scalar, chain, connect, parameter, part, structural, time
 from components import (
     Body,
     FlexibleBeam,
@@ -21,9 +20,8 @@ from components import (
     WorldTorque,
     rotational,
 )
-from components.beams.strain import Strain
 from models import SpinUp
-from tests.reference import cantilever, elastica, floating_beam, rotating_beam
+from tests.reference import cantilever, elastica, rotating_beam
 
 # Length, mass per length and bending stiffness are 1.
 UNIT = {"length": 1.0, "E": 1.0, "rho": 1.0, "A": 1.0, "J": 1.0, "torsional_inertia": 1e-6, "axial": "none"}
@@ -115,7 +113,9 @@ def test_frequencies_of_a_turning_beam_in_every_formulation(n, kind):
 def test_without_its_part_of_the_centrifugal_force_both_planes_are_alike():
     """The straight beam's centrifugal force stiffens; the part that grows with the deflection pulls it outwards."""
     kept, removed, across = (
-        ac.linearize(Turning(n=n, kind=PLANAR | STIFFENED | {"centrifugal": on}, speed=3.0)).frequencies_hz[:4] * 2 * np.pi
+        ac.linearize(Turning(n=n, kind=PLANAR | STIFFENED | {"centrifugal": on}, speed=3.0)).frequencies_hz[:4]
+        * 2
+        * np.pi
         for n, on in ((Z, True), (Z, False), (Y, True))
     )
     np.testing.assert_allclose(removed, across, rtol=1e-9)
