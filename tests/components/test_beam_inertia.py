@@ -197,6 +197,28 @@ def test_both_forms_agree(effects, bubbles, elements):
         close(one, other, 1e-13)
 
 
+@FORMS
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("effect", ["centrifugal", "coriolis"])
+def test_what_an_effect_adds(effect, seed, form):
+    """Centrifugal: the body force of the displacement; Coriolis: that of its rate; with moments in the deflected place."""
+    m = Motion(2, seed, bubbles=True)
+
+    def compute(inertia, a, z, w, v):
+        force, moment, nodal = inertia.forces(a, z, w)
+        return force, moment, m.on_q(nodal)
+
+    expected = [0.0, 0.0, 0.0]
+    for mass, place, S in m.points():
+        d, rate = S @ m.q, S @ m.qd
+        own = np.cross(m.w, np.cross(m.w, d)) if effect == "centrifugal" else 2 * np.cross(m.w, rate)
+        adds = mass * own, mass * np.cross(place + d, own), mass * S.T @ own
+        expected = [one + more for one, more in zip(expected, adds, strict=True)]
+    pairs = zip(m.ours(form, compute), m.ours(form, compute, **{effect: False}), strict=True)
+    for (full, without), value in zip(pairs, expected, strict=True):
+        close(full - without, value, 1e-11)
+
+
 @BUBBLES
 @ELEMENTS
 @SEEDS
