@@ -4,30 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import sqrt
 from typing import Any
 
 from acausal import as_expr
 from components.beams.nodes import Nodes, first, last, to_first, to_last
 from components.beams.pair import Pair, Symmetric
-from components.beams.stiffness import GAUSS
 from components.beams.strain import Bend, Strain
 
 
 @dataclass(frozen=True)
-class BendingPoint:
-    """Bending of a section of every element, to the fourth order.
+class SteepBending:
+    """Energy of bending at a section of every element beyond the square of the curvature, to the fourth order.
 
     The shortest turn from x to the tangent leaves the curvature v'' + v' (v' . v'') / 2, where v' and v'' have both
     components; the section is turned further by phi. With k = v'', k~ = (w'', -v'') and the stiffness K, the energy is
 
-    V = k K k / 2 + (v' . k) (v' K k) / 2 + phi k~ K k + phi^2 (k~ K k~ - k K k) / 2.
+    V = (v' . k) (v' K k) / 2 + phi k~ K k + phi^2 (k~ K k~ - k K k) / 2.
 
     Parameters
     ----------
     K : Symmetric
-        Stiffness over 2 l^3, in N/m: the lengths below are l v' and l^2 v''.
+        Stiffness over 2 l^3 in N/m: the lengths below are l v' and l^2 v''.
     slope, bent : Pair
-        l v' and l^2 v'' in m.
+        l v' and -l^2 v'' in m.
     phi : Expr
         Angle in rad.
     l : Expr
@@ -42,20 +42,25 @@ class BendingPoint:
 
     def energy(self) -> Any:
         """Energy in J."""
-        k, aside, K = self.bent, self.bent.quarter_turn(), self.K
-        M, steep = K.times(k), self.slope.dot(k) * self.slope.dot(K.times(k)) / (2 * self.l * self.l)
-        turned = self.phi * M.dot(aside) + self.phi * self.phi / 2 * (K.times(aside).dot(aside) - M.dot(k))
-        return M.dot(k) / 2 + steep + turned
+        K, k, phi = self.K, self.bent, self.phi
+        M, aside = K.times(k), k.quarter_turn()
+        turned = phi * M.dot(aside) + phi * phi / 2 * (K.times(aside).dot(aside) - M.dot(k))
+        return self.slope.dot(k) * self.slope.dot(M) / (2 * self.l * self.l) + turned
 
     def forces(self) -> tuple[Pair, Pair, Any]:
-        """Forces on l v' and l^2 v'' in N, and the torque on phi in N.m."""
-        k, aside, K, phi = self.bent, self.bent.quarter_turn(), self.K, self.phi
-        M, across = K.times(k), K.times(aside)
-        steep, on_steep = self.slope.dot(k) / (2 * self.l * self.l), self.slope.dot(M) / (2 * self.l * self.l)
-        on_bent = M.plus(self.slope.times(on_steep)).plus(K.times(self.slope).times(steep))
-        turned = across.plus(M.quarter_turn().times(-1.0)).plus(across.quarter_turn().plus(M).times(-phi))
-        on_phi = M.dot(aside) + phi * (across.dot(aside) - M.dot(k))
-        return k.times(on_steep).plus(M.times(steep)), on_bent.plus(turned.times(phi)), on_phi
+        """Forces on `slope` and on `bent` in N, and the torque on phi in N.m."""
+        K, (A, B), (k, m), phi = self.K, self.slope, self.bent, self.phi
+        # V = (y + z) (K_yy y + K_zz z + K_yz x) / (2 l^2) + phi (D p + K_yz d) + phi^2 (D d - 4 K_yz p) / 2
+        y, z, x, p, d, D = A * k, B * m, A * m + B * k, k * m, m * m - k * k, K.yy - K.zz
+        weight = 1 / (2 * self.l * self.l)
+        both, cross = weight * (K.yy + K.zz), weight * K.yz
+        on_y, on_z = 2 * weight * K.yy * y + both * z + cross * x, both * y + 2 * weight * K.zz * z + cross * x
+        on_x = cross * (y + z)
+        on_p, on_d = phi * D - 2 * phi * phi * K.yz, phi * K.yz + phi * phi / 2 * D
+        on_slope = Pair(on_y * k + on_x * m, on_z * m + on_x * k)
+        turned = Pair(on_p * m - 2 * on_d * k, on_p * k + 2 * on_d * m)
+        on_bent = Pair(on_y * A + on_x * B, on_z * B + on_x * A).plus(turned)
+        return on_slope, on_bent, D * p + K.yz * d + phi * (D * d - 4 * K.yz * p)
 
 
 @dataclass(frozen=True)
@@ -99,35 +104,34 @@ class Elasticity:
                 turn = e.q.quarter_turn().times(half)
                 across = e.d.plus(e.r.times(1 / 2)).quarter_turn()
                 on = on.plus(Bend(turn, across.times(-half), turn.times(1 / 2)))
-        for s, point in self._points(U, e):
-            on_slope, on_bent, on_phi = point.forces()
-            on = on.plus(Bend(on_slope, on_slope.times(-s / 2).plus(on_bent.times(-1.0)), on_bent.times(-3 * s)))
+        if strain.second_order:
+            (slope, bent, phi), (slope_2, bent_2, phi_2) = (point.forces() for point in self._points(U, e))
+            aside = slope.plus(slope_2.times(-1.0)).times(1 / sqrt(12))
+            on_r = bent_2.plus(bent.times(-1.0)).times(sqrt(3))
+            on = on.plus(Bend(slope.plus(slope_2), aside.plus(bent).plus(bent_2), on_r))
             if self.twists:
-                at_first, at_last = at_first + (1 - s) / 2 * on_phi, at_last + (1 + s) / 2 * on_phi
+                near, far = (1 + 1 / sqrt(3)) / 2, (1 - 1 / sqrt(3)) / 2
+                at_first, at_last = at_first + near * phi + far * phi_2, at_last + far * phi + near * phi_2
         turned = to_first(at_first / l) + to_last(at_last / l)
         total = strain.on_nodes(on)
         return total._replace(u=to_last(N) - to_first(N), phi=total.phi + turned)
 
     def _linear(self, e: Bend, ed: Bend) -> Bend:
-        """Forces of linear bending and of shear; with second order, of shear and damping alone."""
+        """Forces of linear bending and of shear."""
         own, l, beta = self.strain.stiffness, self.strain.l, self.beta
         q, r = (a.plus(b.times(beta)) for a, b in ((e.q, ed.q), (e.r, ed.r)))
-        sheared = r.scaled(own.shear)
-        if self.strain.second_order:
-            q, r = ed.q.times(beta), ed.r.times(beta)
-        k = 1 / (l * l * l)
-        mean, slant = own.mean, own.slant
-        on_r = slant.times(q).plus(mean.times(r).times(3)).plus(sheared)
+        k, mean, slant = 1 / (l * l * l), own.mean, own.slant
+        on_r = slant.times(q).plus(mean.times(r).times(3)).plus(r.scaled(own.shear))
         return Bend(q.times(0.0), mean.times(q).plus(slant.times(r)).times(k), on_r.times(k))
 
-    def _points(self, U: Nodes, e: Bend) -> Iterator[tuple[float, BendingPoint]]:
-        """Yield s and the bending at both points of Gauss, with second order."""
-        l, bending = self.strain.l, self.strain.stiffness.bending
-        a, b = first(U.phi) / l, last(U.phi) / l
-        for s, K in zip(GAUSS, bending, strict=True) if self.strain.second_order else ():
-            slope, bent = e.d.plus(e.q.times(-s / 2)), e.q.times(-1.0).plus(e.r.times(-3 * s))
+    def _points(self, U: Nodes, e: Bend) -> Iterator[SteepBending]:
+        """Yield the bending at both points of Gauss, s = -1 / sqrt(3) and 1 / sqrt(3)."""
+        l, q, r = self.strain.l, e.q.times(1 / sqrt(12)), e.r.times(sqrt(3))
+        mean, half = (first(U.phi) + last(U.phi)) / (2 * l), (last(U.phi) - first(U.phi)) / (sqrt(12) * l)
+        for sign, K in zip((-1.0, 1.0), self.strain.stiffness.bending, strict=True):
             weighted = Symmetric(*(x / (2 * l * l * l) for x in K))
-            yield s, BendingPoint(weighted, slope, bent, ((1 - s) * a + (1 + s) * b) / 2, l)
+            slope, bent = e.d.plus(q.times(-sign)), e.q.plus(r.times(sign))
+            yield SteepBending(weighted, slope, bent, mean + sign * half, l)
 
     def _torsion(self, U: Nodes, e: Bend) -> Any:
         """Angle of torsion of the elements in rad."""
@@ -139,10 +143,8 @@ class Elasticity:
     def energy(self, U: Nodes, stretches: bool) -> Any:
         """Strain energy in J; that of stretch only if `stretches`."""
         own, l, e = self.strain.stiffness, self.strain.l, self.strain.bend(U)
-        total = e.r.scaled(own.shear).dot(e.r) / (2 * l * l * l)
-        if not self.strain.second_order:
-            total = total + self._work(e)
-        for _, point in self._points(U, e):
+        total = self._work(e) + e.r.scaled(own.shear).dot(e.r) / (2 * l * l * l)
+        for point in self._points(U, e) if self.strain.second_order else ():
             total = total + point.energy()
         if self.twists:
             total = total + own.GJ_t / l * self._torsion(U, e) * self._torsion(U, e) / 2
