@@ -191,6 +191,9 @@ class FieldValues:
             with_place(lambda: unit_rules.check_value(own, given), replace(origin, text=""))
             self.parameters.bound[path] = ", ".join(s.name() for s in symbols) or "others that are 0"
             expression = own
+        if declared.positive and not is_symbolic(value) and expression.sx.is_zero():  # others may be divided by it
+            of = f" of {owner_text(bound)}" if bound._path else ""
+            raise DeclarationError(f"`{path}` ({declared.description}){of} is 0; it must be greater than 0.")
         if declared.positive or declared.minimum is not None:
             self.parameters.limits.append((path, expression.sx, declared))
         return expression
