@@ -544,6 +544,8 @@ DIMENSIONLESS = {
     *[(name, coefficient) for name in contact.__all__ for coefficient in ("e", "mu")],
     *[(name, "slope") for name in ("PointOnProfile", "SphereOnProfile")],
     ("Drag", "c_d"),
+    ("FlexibleBeam", "nu"),
+    ("SubstructuredBeam", "nu"),
     *[("Bushing", name) for name in ("stiffness", "damping")],  # entries of several units
     ("Tyre", "mu"),
     ("Tyre", "e_z"),
