@@ -123,10 +123,13 @@ class BeamMotion:
 
         At a node the mean of the stretches on both sides is used.
         """
-        stretches, found = list(self.strain.extension(self.shape, self.shape)[0]), []
+        U, found = self.shape, []
+        stretches = list(self.strain.extension(U, U)[0] if self.strain.second_order else last(U.u) - first(U.u))
         for k in range(self.n + 1):
-            near = stretches[max(k - 1, 0) : k + 1]
-            found.append((self.l + sum(near[1:], near[0]) / len(near)) * self.rotation(k).axis())
+            near, v, w = stretches[max(k - 1, 0) : k + 1], U.dv[k], U.dw[k]
+            square = (v * v + w * w) / (self.l * self.l)
+            shorter = self.l * (square / 2 + square * square / 8) if self.strain.second_order else 0.0
+            found.append(as_expr((self.l - shorter + sum(near[1:], near[0]) / len(near), v, w)))
         return found
 
     @cached_property
