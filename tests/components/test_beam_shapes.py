@@ -87,7 +87,7 @@ def test_curve_goes_through_the_nodes(name):
     np.testing.assert_allclose(points[:, 0], result["it.frame_a.r_0"], atol=1e-14)
     np.testing.assert_allclose(points[:, -1], result["it.frame_b.r_0"], atol=1e-14)
     # Linear frames: the slope of the axis is the angle of the section, its tangent counts up to third order.
-    slopes = np.abs(result["it.node_deflection"][:, :, 2]).max()
+    slopes = np.abs(result["it.node_deflection"][:, :, 3:]).max()
     assert 0.01 < slopes < 0.5
     for k, frame in ((0, "a"), (-1, "b")):
         x_axis = result[f"it.frame_{frame}.R.T"][:, 0]
@@ -118,16 +118,18 @@ def test_tangents_are_those_of_the_shape_functions(reference):
     tangents = result[curve_of(result, result.tree.it).tangents]
     frame, l = "it.frame_a" if reference == "tangent" else "it.chord", RUBBER["length"] / 3
     local = np.einsum("tij,tkj->tki", result[f"{frame}.R.T"], tangents)
-    U = (result["it.node_deflection"] * [1, 1, l]).reshape(len(result.time), -1)
-    assert np.abs(U).max() > 1e-3
+    u, v, w, phi, w_turn, v_turn = np.moveaxis(result["it.node_deflection"], 2, 0)
+    assert min(np.abs(x).max() for x in (u, v, w, phi)) > 1e-4
+    across = [np.stack([x, l * slope], axis=2) for x, slope in ((v, v_turn), (w, -w_turn))]
     for k in range(4):
         sides = []
         for element, xi in ((k - 1, 1), (k, 0)):
             if 0 <= element < 3:
-                S = [[s.deriv()(xi) for s in row] for row in (ALONG, ACROSS)]
-                sides.append(U[:, 3 * element : 3 * element + 6] @ np.array(S).T + [l, 0])
-        np.testing.assert_allclose(local[:, k, :2], np.mean(sides, axis=0), atol=1e-13)
-        np.testing.assert_allclose(local[:, k, 2], 0, atol=1e-13)
+                slopes = [np.array([s.deriv()(xi) for s in row]) for row in (ALONG, ACROSS)]
+                own = [x[:, element : element + 2].reshape(len(x), -1) @ slopes[1] for x in across]
+                sides.append(np.stack([l + u[:, element : element + 2] @ slopes[0], *own], axis=1))
+        expected = np.mean(sides, axis=0)
+        np.testing.assert_allclose(local[:, k], expected, atol=1e-13)
 
 
 @pytest.mark.parametrize("second_order", [False, True])
@@ -201,7 +203,7 @@ def test_values_along_a_cantilever(kind):
 def test_axial_force_is_along_the_deflected_axis():
     """Of a beam bent by a torque, a tip force along x has the part cos(angle) across each section."""
     result = at_rest({"f_x": 0.5, "m_z": 0.3}, elements=4)
-    angle = result["beam.node_deflection"][0, :, 2]
+    angle = result["beam.node_deflection"][0, :, 5]
     force = result[curve_of(result).values[1].entries()][0]
     np.testing.assert_allclose(force, 0.5 * np.cos(angle), rtol=1e-9)
     assert angle[-1] > 0.1
@@ -226,8 +228,6 @@ def test_section_is_the_ellipse_of_the_moments_of_area():
     np.testing.assert_allclose([result[half][0] for half in curve_of(result).section], 0.02)
     result = at_rest({}, A=A, J=J, J_y=4 * J)
     np.testing.assert_allclose([result[half][0] for half in curve_of(result).section], [0.04, 0.02])
-    result = at_rest({}, A=A, J=J, J_y=0)
-    np.testing.assert_allclose([result[half][0] for half in curve_of(result).section], 0.02)
 
 
 @pytest.mark.parametrize("volumes", [1, 2])
