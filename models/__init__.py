@@ -1,25 +1,25 @@
 """Scenes: example models, each in a file to copy and modify."""
 
 from acausal import Model
-from models.blade import Blade
-from models.bricard import Bricard
-from models.car_axis import CarAxis
-from models.fe_pendulum import FEPendulum
-from models.fe_plate import FEPlate
-from models.four_bar import FourBar
-from models.four_bar_spatial import FourBarSpatial
-from models.free_vibration import FreeVibration
-from models.governor import Governor
-from models.n_four_bar import NFourBar
-from models.pendulum import FlexiblePendulum
-from models.right_angle_frame import RightAngleFrame
-from models.robot_arm import RobotArm
-from models.rolling_wheel_set_driving import RollingWheelSetDriving
-from models.shaft import Shaft
-from models.simple_pendulum import SimplePendulum
-from models.slider_crank import SliderCrank
-from models.spin_up import SpinUp
-from models.squeezer import Squeezer
+from models.blade import Blade as Blade
+from models.bricard import Bricard as Bricard
+from models.car_axis import CarAxis as CarAxis
+from models.fe_pendulum import FEPendulum as FEPendulum
+from models.fe_plate import FEPlate as FEPlate
+from models.four_bar import FourBar as FourBar
+from models.four_bar_spatial import FourBarSpatial as FourBarSpatial
+from models.free_vibration import FreeVibration as FreeVibration
+from models.governor import Governor as Governor
+from models.n_four_bar import NFourBar as NFourBar
+from models.pendulum import FlexiblePendulum as FlexiblePendulum
+from models.right_angle_frame import RightAngleFrame as RightAngleFrame
+from models.robot_arm import RobotArm as RobotArm
+from models.rolling_wheel_set_driving import RollingWheelSetDriving as RollingWheelSetDriving
+from models.shaft import Shaft as Shaft
+from models.simple_pendulum import SimplePendulum as SimplePendulum
+from models.slider_crank import SliderCrank as SliderCrank
+from models.spin_up import SpinUp as SpinUp
+from models.squeezer import Squeezer as Squeezer
 
 SCENES: dict[str, type[Model]] = {
     "free-vibration": FreeVibration,
@@ -42,26 +42,3 @@ SCENES: dict[str, type[Model]] = {
     "fe-plate": FEPlate,
     "rolling-wheel-set-driving": RollingWheelSetDriving,
 }
-
-__all__ = [
-    "SCENES",
-    "Blade",
-    "Bricard",
-    "CarAxis",
-    "FEPendulum",
-    "FEPlate",
-    "FlexiblePendulum",
-    "FourBar",
-    "FourBarSpatial",
-    "FreeVibration",
-    "Governor",
-    "NFourBar",
-    "RightAngleFrame",
-    "RobotArm",
-    "RollingWheelSetDriving",
-    "Shaft",
-    "SimplePendulum",
-    "SliderCrank",
-    "SpinUp",
-    "Squeezer",
-]

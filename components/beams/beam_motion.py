@@ -12,7 +12,7 @@ from components.beams.distributed import PointLoad, on_nodes, point_loads, resul
 from components.beams.elasticity import Elasticity
 from components.beams.inertia import Inertia, Place
 from components.beams.load import POINTS, WEIGHTS
-from components.beams.nodes import NODE, Nodes
+from components.beams.nodes import NODE, Nodes, first, last
 from components.beams.pair import Symmetric, inverse
 from components.beams.point_inertia import PointInertia
 from components.beams.rotary_inertia import SIMPSON, Discs, Spin, micro_energy, micro_inertia
@@ -182,9 +182,13 @@ class BeamMotion:
 
     @cached_property
     def _elongating(self) -> tuple[Any, Any]:
-        """Inertias in kg against rates of stretch and of torsion; 0 where these are no states."""
+        """Inertias in kg against rates of stretch and of torsion; 0 where these are no states.
+
+        With second order u' contains the rate of shortening as well, which has no such inertia.
+        """
         a, b = (self._section(s) for s in GAUSS)
-        mass = (a.mass + b.mass) * self.l / 2 if self.beam.axial == "dynamic" else as_expr(0.0)
+        stretches = self.beam.axial == "dynamic" and not self.strain.second_order
+        mass = (a.mass + b.mass) * self.l / 2 if stretches else as_expr(0.0)
         return mass, self._polar / (self.l * self.l) if self.beam.torsion else as_expr(0.0)
 
     def inertia_forces(self) -> tuple[Any, Any, Nodes]:

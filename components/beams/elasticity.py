@@ -52,9 +52,9 @@ class SteepBending:
         K, (A, B), (k, m), phi = self.K, self.slope, self.bent, self.phi
         # V = (y + z) (K_yy y + K_zz z + K_yz x) / (2 l^2) + phi (D p + K_yz d) + phi^2 (D d - 4 K_yz p) / 2
         y, z, x, p, d, D = A * k, B * m, A * m + B * k, k * m, m * m - k * k, K.yy - K.zz
-        weight = 1 / (2 * self.l * self.l)
-        both, cross = weight * (K.yy + K.zz), weight * K.yz
-        on_y, on_z = 2 * weight * K.yy * y + both * z + cross * x, both * y + 2 * weight * K.zz * z + cross * x
+        K_yy, cross, K_zz = K.yy / (self.l * self.l), K.yz / (2 * self.l * self.l), K.zz / (self.l * self.l)
+        both = (K_yy + K_zz) / 2
+        on_y, on_z = K_yy * y + both * z + cross * x, both * y + K_zz * z + cross * x
         on_x = cross * (y + z)
         on_p, on_d = phi * D - 2 * phi * phi * K.yz, phi * K.yz + phi * phi / 2 * D
         on_slope = Pair(on_y * k + on_x * m, on_z * m + on_x * k)

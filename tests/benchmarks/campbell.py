@@ -1,6 +1,6 @@
 """Campbell diagram of the blade: frequencies in the turning frame over the speed of the hub.
 
-    python -m tests.benchmarks.campbell docs/blade-campbell.png
+python -m tests.benchmarks.campbell docs/blade-campbell.png
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ def main(path: str) -> None:
     for multiple in range(1, 7):
         axes.plot(turns * 60, multiple * turns, color="0.7", linewidth=0.8)
         axes.annotate(f"{multiple}P", (turns[-1] * 60, multiple * turns[-1]), color="0.5", fontsize=8)
-    axes.set(xlabel="speed in 1/min", ylabel="frequency in Hz", xlim=(0, turns[-1] * 63), ylim=(0, np.max(found) * 1.05))
+    axes.set(
+        xlabel="speed in 1/min", ylabel="frequency in Hz", xlim=(0, turns[-1] * 63), ylim=(0, np.max(found) * 1.05)
+    )
     figure.savefig(path, dpi=110)
     for speed, row in zip(SPEEDS[[0, 12, -1]], np.array(found)[[0, 12, -1]], strict=True):
         print(f"{speed:5.1f} rad/s:", *(f"{f:.3f}" for f in row))
