@@ -120,9 +120,10 @@ class Elasticity:
         """Forces of linear bending and of shear."""
         own, l, beta = self.strain.stiffness, self.strain.l, self.beta
         q, r = (a.plus(b.times(beta)) for a, b in ((e.q, ed.q), (e.r, ed.r)))
-        k, mean, slant = 1 / (l * l * l), own.mean, own.slant
-        on_r = slant.times(q).plus(mean.times(r).times(3)).plus(r.scaled(own.shear))
-        return Bend(q.times(0.0), mean.times(q).plus(slant.times(r)).times(k), on_r.times(k))
+        mean, slant = (Symmetric(*(x / (l * l * l) for x in K)) for K in (own.mean, own.slant))
+        thrice = Symmetric(*(3 * x for x in mean))
+        on_r = slant.times(q).plus(thrice.times(r)).plus(r.scaled(own.shear.times(1 / (l * l * l))))
+        return Bend(q.times(0.0), mean.times(q).plus(slant.times(r)), on_r)
 
     def _points(self, U: Nodes, e: Bend) -> Iterator[SteepBending]:
         """Yield the bending at both points of Gauss, s = -1 / sqrt(3) and 1 / sqrt(3)."""
