@@ -39,10 +39,14 @@ class Blade(Model):
 
 @pytest.mark.parametrize("drive", [Speed(w_ref=4 * SLOWEST), Position(phi_ref=4 * SLOWEST * time)])
 def test_a_turning_blade_flaps_at_the_exact_frequency(drive):
-    """A hub that turns 4 times faster than the blade's unit of frequency: 5.5850 of these (Wright and others 1982)."""
+    """A hub that turns 4 times faster than the blade's unit of frequency: 5.5850 of these (Wright and others 1982).
+
+    In the plane of rotation the square of the frequency is less by that of the speed.
+    """
     linear = ac.linearize(Blade(drive=drive), initial="steady")
     frequencies = np.sort(np.abs(np.imag(linear.eigenvalues)))
-    assert frequencies[frequencies > 1][0] / SLOWEST == pytest.approx(5.5850, abs=2e-4)
+    found = np.unique(np.round(frequencies[frequencies > 1] / SLOWEST, 9))[:2]
+    np.testing.assert_allclose([np.hypot(found[0], 4), found[1]], 5.5850, rtol=0, atol=2e-4)
 
 
 class Flyball(Model):
