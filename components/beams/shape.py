@@ -27,11 +27,10 @@ def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
     """
     count = len(frames) * frames[0].elements
     fixed, first = (beam.frame_a, 0) if rooted(frames[0].ref, frames[0].frame_b) else (beam.frame_b, count)
-    about_y = beam.J if beam.J_y.sx.is_zero() else beam.J_y
     return geometry.Curve(
         points=beam.node_r_0,
         tangents=_of_nodes(frames, _tangents),
-        section=(2 * sqrt(about_y / beam.A), 2 * sqrt(beam.J / beam.A)),
+        section=(2 * sqrt(beam.J_y / beam.A), 2 * sqrt(beam.J / beam.A)),
         up=resolve1(beam.frame_a.R, as_expr((0.0, 1.0, 0.0))),
         rest=None if in_loop(beam) else pose(fixed),
         rest_points=as_expr([[(k - first) * beam.length / count, 0.0, 0.0] for k in range(count + 1)]),

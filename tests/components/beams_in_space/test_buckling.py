@@ -13,7 +13,9 @@ from tests.components.beams_in_space.scenes import Cantilever
 
 # EJ_z = 1e4 EJ_y, so that bending before buckling does not count; EJ_y = GJ_t = 1.
 THIN = {"length": 1.0, "E": 1e6, "G": 1e6, "rho": 1.0, "A": 1.0, "J": 1e-2, "J_y": 1e-6, "J_t": 1e-6}
-LATERAL = 4.0125993  # load of a cantilever over sqrt(EJ_y GJ_t) / L^2 (Timoshenko, Gere, Theory of Elastic Stability, 6.3)
+LATERAL = (
+    4.0125993  # load of a cantilever over sqrt(EJ_y GJ_t) / L^2 (Timoshenko, Gere, Theory of Elastic Stability, 6.3)
+)
 
 
 def critical(direction: tuple[float, float, float], low: float, high: float, **kind: Any) -> float:
@@ -40,8 +42,6 @@ def test_lateral_buckling_of_a_linear_chain():
 
 
 def test_buckling_in_the_weak_plane_converges_with_order_4():
-    errors = [
-        critical((-1, 0, 0), 1.5, 3.5, elements=n, geometric_stiffness=True) / (np.pi**2 / 4) - 1 for n in (1, 2)
-    ]
+    errors = [critical((-1, 0, 0), 1.5, 3.5, elements=n, geometric_stiffness=True) / (np.pi**2 / 4) - 1 for n in (1, 2)]
     assert errors[0] < 1e-2
     assert errors[0] / errors[1] > 10
