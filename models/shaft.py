@@ -2,7 +2,7 @@
 
 import acausal as ac
 from acausal import Model, Scalar, chain, connect, fixed, output, parameter, part, structural, time
-from components import Body, Circle, FlexibleBeam, Load, Prismatic, Revolute, Spherical, Universal, World
+from components import Body, Circle, FlexibleBeam, Prismatic, Revolute, Spherical, Universal, World, WorldForce
 from components.rotational import Speed
 
 
@@ -16,7 +16,7 @@ class Shaft(Model):
     elements: int = structural("finite elements, an even number", default=8, minimum=2)
     stop_speed: Scalar = parameter("speed at the end of the run", unit="rad/s", default=250.0)
     eccentricity: Scalar = parameter("distance of the centre of mass of the disc from the axis", unit="m", default=2e-4)
-    drag: Scalar = parameter("external damping per length", unit="N.s/m2", default=150.0)
+    drag: Scalar = parameter("damping of the disc by the air and its seals", unit="N.s/m", default=60.0)
     world, motor = World(), Revolute(n=(1, 0, 0), use_axis_flange=True, phi=fixed(0))
     drive, joint, slide, ball = (
         Speed(w_ref=stop_speed * time / 10),
@@ -25,6 +25,7 @@ class Shaft(Model):
         Spherical(),
     )
     disc = Body(m=6.0, r_CM=(0, eccentricity, 0), I=((0.03, 0, 0), (0, 0.015, 0), (0, 0, 0.015)))
+    seal = WorldForce()
     whirl_y: Scalar = output("displacement of the disc upwards", unit="m")
     whirl_z: Scalar = output("displacement of the disc to the side", unit="m")
     speed: Scalar = output("speed of the shaft", unit="rad/s")
@@ -40,16 +41,17 @@ class Shaft(Model):
             frames_at=(0.5,),
             axial="none",
             initial="static",
-            distributed=Load(lambda s, t, r, v, R: -self.drag * v),
         )
 
     def connections(self):
         yield chain(self.world, self.motor, self.joint, self.beam, self.ball, self.slide.frame_b)
         yield connect(self.slide.frame_a, self.world.frame_b)
         yield from (connect(self.drive.flange, self.motor.axis), connect(self.beam.frames_inner[0], self.disc.frame_a))
+        yield connect(self.seal.frame_b, self.disc.frame_a)
 
     def equations(self):
         place = self.disc.frame_a.r_0
+        yield self.seal.force == -self.drag * ac.der(place)
         yield from (self.whirl_y == place[1], self.whirl_z == place[2], self.speed == self.motor.w)
 
 
