@@ -88,9 +88,9 @@ def test_what_is_asked_for(run, asked, monkeypatch):
     assert run("--dae", "c.dae").stdout == "wrote c.dae\n"
     assert run("--dae", "c.dae", "--quiet").stdout == ""
     assert asked == [
-        ("a.fmu", {"fmi_version": 3, "platforms": ("own",), "free": ()}),
-        ("b.fmu", {"fmi_version": 2, "platforms": ("macos-arm64", "own"), "free": ("x", "rate")}),
-        *[("c.dae", {})] * 2,
+        ("a.fmu", {"fmi_version": 3, "platforms": ("own",), "free": (), "full": False}),
+        ("b.fmu", {"fmi_version": 2, "platforms": ("macos-arm64", "own"), "free": ("x", "rate"), "full": False}),
+        *[("c.dae", {"full": False})] * 2,
     ]
     assert compiled == [None, ["rate=3"], None, None]
 
@@ -98,7 +98,7 @@ def test_what_is_asked_for(run, asked, monkeypatch):
 def test_the_compiled_scene_is_exported(run, monkeypatch):
     found = []
     monkeypatch.setattr(platforms, "_is_installed", lambda name: True)
-    monkeypatch.setattr(acausal.export, "export_dae", lambda compiled, path: found.append(compiled), raising=False)
+    monkeypatch.setattr(acausal.export, "export_dae", lambda compiled, path, **_: found.append(compiled), raising=False)
     assert run("--set", "rate=3", "--dae", "c.dae").exit_code == 0
     assert found[0].parameter_values(None).tolist() == [3.0]
 

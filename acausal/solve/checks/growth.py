@@ -111,7 +111,7 @@ def growth_rate(J: scipy.sparse.csc_matrix, derivative: np.ndarray) -> tuple[flo
     B, C = N[lower], N[upper] * (size[upper] / size[lower])[:, None]
     length = np.maximum(np.linalg.norm(B, axis=1), np.linalg.norm(C, axis=1))[:, None]
     V = _consistent(B := B / length, C := C / length)
-    if not V.shape[1]:
+    if not V.shape[1] or np.linalg.cond(B @ V) > 1 / RANK:
         return 0.0, still
     A = np.linalg.solve(B, C) if V.shape[1] == len(B) else np.linalg.lstsq(B @ V, C @ V, rcond=None)[0]
     values = np.linalg.eigvals(A)

@@ -49,7 +49,7 @@ def test_equations_and_jacobian_of_a_scene(name):
     function, given = jacobian(model), points(model, 20)
     tape = make_tape(function, early=(2, 4))
     same(tape.rows(*given), function, given)
-    assert len(tape.kinds) <= 140, "operations of one kind stand together"
+    assert len(tape.kinds) <= max(140, function.n_instructions() / 100), "operations of one kind stand together"
 
 
 def test_what_follows_from_early_arguments_stands_in_front():

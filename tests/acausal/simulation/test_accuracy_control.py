@@ -119,7 +119,8 @@ def assert_honest(pairs: list[tuple[str, float]]) -> None:
 
 
 def test_every_scene_is_measured():
-    assert {name.partition(",")[0] for name in CASES} == set(SCENES)
+    beams = {"blade", "right-angle-frame", "shaft", "robot-arm"}  # in tests/components/beams_in_space
+    assert {name.partition(",")[0] for name in CASES} == set(SCENES) - beams
 
 
 @pytest.mark.parametrize(("name", "accuracy"), QUICK)
