@@ -136,12 +136,12 @@ class Assembly:
         own = stacked(self.raw.build.parameters.symbols)
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
         linear = LinearValues(self.symbols, given, self.residuals)
-        present = set(linear.input) | self._requested()
-        units, vanishing = unknown_units(self.raw, self.lower), StaysZero()
+        present, vanishing = set(linear.input) | self._requested(), StaysZero()
+        units = unknown_units(self.raw, self.lower)
 
         def vanish(simplifier: Simplifier) -> Mapping[int, Source]:
             nonlocal vanishing
-            barred = started_elsewhere(self.raw, linear, self.discontinuities)
+            barred = {*started_elsewhere(self.raw, linear, self.discontinuities), *self.raw.kept}  # derivatives not 0
             vanishing = stays_zero(
                 simplifier,
                 barred,

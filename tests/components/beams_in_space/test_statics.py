@@ -31,9 +31,9 @@ def test_exact_rod_has_the_published_tip():
     ("kind", "coarse", "fine"),
     [
         ({"geometric_stiffness": True}, 0.15, 0.03),
-        ({"geometric_stiffness": True, "reference": "pinned"}, 0.08, 0.02),
+        pytest.param({"geometric_stiffness": True, "reference": "pinned"}, 0.08, 0.02, marks=pytest.mark.slow),
         ({}, 0.32, 0.08),
-        ({"reference": "pinned"}, 0.08, 0.02),
+        pytest.param({"reference": "pinned"}, 0.08, 0.02, marks=pytest.mark.slow),
     ],
     ids=["stiffened", "stiffened pinned", "linear", "linear pinned"],
 )
