@@ -11,16 +11,16 @@ from acausal import Expr, as_expr, cross
 from components.beams.distributed import PointLoad, on_nodes, point_loads, resultant
 from components.beams.elasticity import Elasticity
 from components.beams.inertia import Inertia, Place
-from components.beams.load import POINTS, WEIGHTS
-from components.beams.nodes import NODE, Nodes, first, last
+from components.beams.nodes import NODE, ROTATIONS, TRANSLATIONS, Nodes, first, last
 from components.beams.pair import Symmetric, inverse
 from components.beams.point_inertia import PointInertia
-from components.beams.rotary_inertia import SIMPSON, Discs, Spin, micro_energy, micro_inertia
+from components.beams.quadrature import GAUSS, POINTS, SIMPSON, WEIGHTS
+from components.beams.rotary_inertia import Discs, Spin, micro_energy, micro_inertia
 from components.beams.section_rotation import SectionRotation
 from components.beams.section_values import section_at
 from components.beams.sections import Section, joined
 from components.beams.station import Station
-from components.beams.stiffness import GAUSS, ZERO, Stiffness
+from components.beams.stiffness import ZERO, Stiffness
 from components.beams.strain import Strain, shifted
 from components.orientation import resolve1, resolve2
 
@@ -63,7 +63,7 @@ class BeamMotion:
         """Nodal coordinates in metres from the states."""
         full = [as_expr(0.0)] * (NODE * self.n + NODE)
         for index, entry in zip(self.beam.free, q, strict=True):
-            full[index] = self.l * entry if index % NODE in (2, 4, 5) else entry
+            full[index] = self.l * entry if index % NODE in ROTATIONS else entry
         if self.beam.reference == "pinned":  # the chord turns with the mean of both ends
             full[5] = -full[-1]
         return Nodes.of([as_expr(entry.sx) for entry in full])
@@ -252,9 +252,9 @@ class BeamMotion:
         given = [(0, nothing, t_a), (self.n, f_b, t_b)]
         given += [(node, *self.inner_load(node, frame)) for node, frame in self._inner]
         for node, force, torque in given:
-            for k, on in zip((2, 4, 5), self.rotation(node).forces(torque), strict=True):
+            for k, on in zip(ROTATIONS, self.rotation(node).forces(torque), strict=True):
                 load[NODE * node + k] += on / self.l
-            for k, on in zip((0, 1, 3), force, strict=True):
+            for k, on in zip(TRANSLATIONS, force, strict=True):
                 load[NODE * node + k] += on
         return load
 

@@ -23,15 +23,13 @@ from acausal import (
 )
 from components.beams.beam import Beam
 from components.beams.beam_motion import BeamMotion
-from components.beams.nodes import NODE
+from components.beams.nodes import NODE, ROTATIONS, TRANSLATIONS
 from components.beams.section_loads import section_loads
 from components.frame import Frame, move
 from components.orientation import null_rotation, resolve1
 from components.world import World
 
 UNITS = ("m", "m", "rad", "m", "rad", "rad")
-SLOPES = (2, 4, 5)
-TRANSLATIONS = (0, 1, 3)
 
 
 def _units(beam: Any, per: str) -> list[str]:
@@ -149,7 +147,8 @@ class FlexibleBeam(Beam):
     @property
     def _balanced(self) -> list[int]:
         """Indices of the nodal coordinates with an equilibrium equation."""
-        return [k for k in self._unfixed if k in self.free or (self._has_tension and k % NODE == 0)]
+        free, stretches = self.free, self._has_tension
+        return [k for k in self._unfixed if k in free or (stretches and k % NODE == 0)]
 
     def _without_tip_load(
         self, force: Any, f_b: Any, t_b: Any, balance: list[Any], drag: list[Any], motion: BeamMotion
@@ -168,9 +167,12 @@ class FlexibleBeam(Beam):
                 rest[axis] = balance[k] - sum(drag[k::NODE], as_expr(0.0))
                 if not motion.inner_frames():
                     tip[axis] = balance[last + k]
-        known = [last + k in balanced for k in SLOPES]
+        known = [last + k in balanced for k in ROTATIONS]
         on, t = (
-            [balance[last + k] * motion.l if found else as_expr(0.0) for k, found in zip(SLOPES, known, strict=True)],
+            [
+                balance[last + k] * motion.l if found else as_expr(0.0)
+                for k, found in zip(ROTATIONS, known, strict=True)
+            ],
             t_b,
         )
         if all(known):

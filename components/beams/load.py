@@ -6,11 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from acausal import DeclarationError
+from components.beams.quadrature import POINTS, WEIGHTS
 
-POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 # Part of an element in which a load ends, over its length: less is round-off of s.
 LEAST = 1e-9
 

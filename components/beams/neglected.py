@@ -9,8 +9,8 @@ import numpy as np
 from acausal import as_expr
 from components.beams.beam_chain import BeamChain, mapped
 from components.beams.pair import Pair, Symmetric, inverse
+from components.beams.quadrature import GAUSS
 from components.beams.section_rotation import SectionRotation
-from components.beams.stiffness import GAUSS
 from components.beams.strain import Bend
 
 

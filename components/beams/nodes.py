@@ -10,6 +10,7 @@ from acausal import as_expr
 from components.beams.pair import Pair
 
 NODE = 6
+TRANSLATIONS, ROTATIONS = (0, 1, 3), (2, 4, 5)  # u, v, w and l v', l w', l phi
 
 
 class Nodes(NamedTuple):

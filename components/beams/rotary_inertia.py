@@ -14,8 +14,6 @@ from components.beams.pair import Pair, Symmetric
 from components.beams.section_rotation import SectionRotation
 from components.beams.station import Station, Vector, entry
 
-SIMPSON = ((-1.0, 1 / 6), (0.0, 2 / 3), (1.0, 1 / 6))  # s and weight
-
 
 @dataclass(frozen=True)
 class Spin:

@@ -10,7 +10,6 @@ from acausal import as_expr
 from components.beams.pair import Pair, Symmetric, inverse
 from components.beams.sections import Section
 
-GAUSS = (-1 / sqrt(3), 1 / sqrt(3))
 ONE, ZERO = Pair(1.0, 1.0), Pair(0.0, 0.0)
 
 

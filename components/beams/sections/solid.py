@@ -2,39 +2,40 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Any
 
 from components.beams.sections.section import Section
 
 
-class SolidSection:
+class SolidSection(ABC):
     """A section of one material, with its centroid and its shear centre on the axis of the beam."""
 
-    angle: Any
+    angle: Any = 0.0
 
     @property
+    @abstractmethod
     def A(self) -> Any:
         """Area in m2."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def J_y(self) -> Any:
         """Second moment of area about y in m4."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def J_z(self) -> Any:
         """Second moment of area about z in m4."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def J_t(self) -> Any:
         """Torsion constant in m4."""
-        raise NotImplementedError
 
+    @abstractmethod
     def shear_factor(self, nu: Any) -> Any:
         """Shear factor of Timoshenko's beam at Poisson's ratio nu."""
-        raise NotImplementedError
 
     def section(self, E: Any, G: Any, rho: Any) -> Section:
         """Return the section of a material with the moduli E and G in Pa and the density rho in kg/m3."""

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
 from typing import Any
 
-from components.beams.sections.solid import SolidSection
+from components.beams.sections.round import RoundSection
 
 
 @dataclass(frozen=True)
-class Tube(SolidSection):
+class Tube(RoundSection):
     """Circular section with a circular hole in its centre.
 
     Parameters
@@ -21,30 +20,3 @@ class Tube(SolidSection):
 
     d_o: Any
     d_i: Any
-    angle = 0.0
-
-    @property
-    def A(self) -> Any:
-        """Area in m2."""
-        return pi / 4 * (self.d_o**2 - self.d_i**2)
-
-    @property
-    def J_y(self) -> Any:
-        """Second moment of area about y in m4."""
-        return pi / 64 * (self.d_o**4 - self.d_i**4)
-
-    @property
-    def J_z(self) -> Any:
-        """Second moment of area about z in m4."""
-        return self.J_y
-
-    @property
-    def J_t(self) -> Any:
-        """Torsion constant in m4, the polar moment."""
-        return 2 * self.J_y
-
-    def shear_factor(self, nu: Any) -> Any:
-        """Shear factor (Cowper, The shear coefficient in Timoshenko's beam theory, 1966)."""
-        m = (self.d_i / self.d_o) ** 2
-        whole = (1 + m) * (1 + m)
-        return 6 * (1 + nu) * whole / ((7 + 6 * nu) * whole + (20 + 12 * nu) * m)
