@@ -6,7 +6,7 @@ import inspect
 import operator
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 from acausal.errors import DeclarationError, user_line
@@ -108,10 +108,13 @@ def evaluate(value: Any, owner: Any) -> Any:
         return value.evaluate(owner)
     if isinstance(value, Condition):
         return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind, c.sides))
-    if isinstance(value, InitialValue):
-        return InitialValue(evaluate(value.value, owner), value.fixed, evaluate(value.nominal, owner))
     if type(value) in (list, tuple):
-        return type(value)(evaluate(item, owner) for item in value)
+        own = [evaluate(item, owner) for item in value]
+        return value if all(a is b for a, b in zip(own, value, strict=True)) else type(value)(own)
+    if is_dataclass(value) and not isinstance(value, type):
+        given = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
+        own = {name: evaluate(item, owner) for name, item in given.items()}
+        return replace(value, **own) if any(own[name] is not item for name, item in given.items()) else value
     return value
 
 

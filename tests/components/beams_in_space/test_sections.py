@@ -10,7 +10,8 @@ from numpy.polynomial import Polynomial
 from scipy.linalg import block_diag, eigh
 
 import acausal as ac
-from components import Circle, Rectangle, Section, Tube
+from acausal import Model, Scalar, chain, parameter
+from components import Circle, FlexibleBeam, Load, Rectangle, Section, Tube, World
 from tests.components.beams_in_space.scenes import Cantilever
 
 POWERS = [Polynomial([0] * (k + 2) + [1]) for k in range(10)]
@@ -147,3 +148,25 @@ def test_torsion_constant_of_rectangles():
     for ratio, factor in ((1, 0.1406), (2, 0.229), (3, 0.263), (10, 0.312)):
         for width, height in ((ratio, 1.0), (1.0, ratio)):
             assert Rectangle(width, height).J_t == pytest.approx(factor * ratio, rel=2e-3)
+
+
+class Shelf(Model):
+    """A round beam under a uniform load; both are parameters of the model."""
+
+    d: Scalar = parameter("diameter", unit="m", default=0.02)
+    q: Scalar = parameter("load per length", unit="N/m", default=1.0)
+    world = World(gravity=None)
+    beam = FlexibleBeam(
+        length=1.0, section=Circle(d), E=2e11, rho=7850.0, initial="static", distributed=Load((0, q, 0))
+    )
+
+    def connections(self):
+        yield chain(self.world, self.beam)
+
+
+def test_sections_and_loads_take_parameters_of_the_model():
+    model = ac.compile(Shelf())
+    for d, q in ((0.02, 1.0), (0.03, 2.0)):
+        result = ac.simulate(model, stop_time=1e-4, intervals=1, parameters={"d": d, "q": q})
+        EJ = 2e11 * np.pi / 64 * d**4
+        assert result["beam.frame_b.r_0"][0, 1] == pytest.approx(q / (8 * EJ), rel=1e-4)
