@@ -27,7 +27,8 @@ def critical(direction: tuple[float, float, float], low: float, high: float, **k
         found = ac.linearize(model, parameters={"force": tuple(P * x for x in direction)})
         return float(np.sort(-(np.linalg.eigvals(found.A) ** 2).real)[:2].mean())
 
-    return brentq(lowest, low, high, rtol=1e-6)
+    found: Any = brentq(lowest, low, high, xtol=1e-6)
+    return float(found)
 
 
 @pytest.mark.parametrize(("elements", "most"), [(4, 1.7e-2), (8, 5e-3)])

@@ -55,4 +55,4 @@ def test_lowest_eigenvalue_across_changes_sign_at_the_critical_moment():
         found = ac.linearize(model, parameters={"M": M})
         return float(np.sort(-(np.linalg.eigvals(found.A) ** 2).real)[:2].mean())
 
-    assert brentq(lowest, 3.0, 3.3, rtol=1e-5) == pytest.approx(pi, rel=1e-2)
+    assert brentq(lowest, 3.0, 3.3, xtol=1e-5) == pytest.approx(pi, rel=1e-2)
