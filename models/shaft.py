@@ -14,9 +14,9 @@ class Shaft(Model):
 
     stop_time = 10.0
     elements: int = structural("finite elements, an even number", default=8, minimum=2)
-    stop_speed: Scalar = parameter("speed at the end of the run", unit="rad/s", default=250.0)
+    stop_speed: Scalar = parameter("speed at the end of the run", unit="rad/s", default=110.0)
     eccentricity: Scalar = parameter("distance of the centre of mass of the disc from the axis", unit="m", default=2e-4)
-    drag: Scalar = parameter("damping of the disc by the air and its seals", unit="N.s/m", default=60.0)
+    drag: Scalar = parameter("damping of the disc by the air and its seals", unit="N.s/m", default=30.0)
     world, motor = World(), Revolute(n=(1, 0, 0), use_axis_flange=True, phi=fixed(0))
     drive, joint, slide, ball = (
         Speed(w_ref=stop_speed * time / 10),
@@ -34,7 +34,7 @@ class Shaft(Model):
     def beam(self):
         return FlexibleBeam(
             length=0.8,
-            section=Circle(0.02),
+            section=Circle(0.013),
             E=2.1e11,
             rho=7850.0,
             elements=self.elements,
