@@ -1,4 +1,4 @@
-"""Shaft: an unbalanced rotor on elastic bearings, run up through its resonance."""
+"""Shaft: an unbalanced rotor between two bearings, run up through its resonance."""
 
 import acausal as ac
 from acausal import Model, Scalar, chain, connect, fixed, output, parameter, part, structural, time

@@ -150,7 +150,10 @@ class FieldValues:
         if value is f.MISSING:
             value = bound._values.get(name, f.MISSING)
         if value is f.MISSING:
-            value = self._evaluated(bound, name, bound._class_values.get(name, declared.default))
+            default = bound._class_values.get(name, declared.default)
+            value = self._evaluated(bound, name, default)
+            if value is None and callable(default) and isinstance(declared, f.Parameter):
+                value = f.MISSING
         if value is f.MISSING:
             raise DeclarationError(
                 f"{owner_text(bound)} needs a value for `{name}` ({declared.description}): "

@@ -123,7 +123,8 @@ def parameter(
     unit : str or sequence of str
         SI unit, or one for each entry; None is unknown and fits every unit, "1" is a pure number.
     default : float, array or callable
-        Value if none is given; a function of the component for one that depends on other parameters.
+        Value if none is given; a function of the component for one that depends on other parameters, which returns None if
+        a value must be given.
     shape : tuple of int, optional
         Shape, if the annotation does not determine it.
     minimum : float, optional

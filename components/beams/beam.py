@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from acausal import DeclarationError, Scalar, effect, observed, parameter, parts, sqrt, structural
+from components.beams.load import Load
 from components.beams.range import beam_range
 from components.beams.section_values import EQUIVALENT, of_section
+from components.beams.sections import Section
 from components.beams.shape import tube
 from components.frame import Frame, TwoFrames
 from components.orientation import resolve2
@@ -38,9 +40,11 @@ class Beam(TwoFrames):
     rho: Scalar = parameter(
         "density", unit="kg/m3", default=lambda s: of_section(s, "rho"), positive=True, doc=EQUIVALENT
     )
-    A: Scalar = parameter("area of the section", unit="m2", default=lambda s: of_section(s, "A"), positive=True)
+    A: Scalar = parameter(
+        "area, of the section if one is given", unit="m2", default=lambda s: of_section(s, "A"), positive=True
+    )
     J: Scalar = parameter(
-        "second moment of area about z, for bending in xy",
+        "second moment of area about z, for bending in xy, of the section if one is given",
         unit="m4",
         default=lambda s: of_section(s, "J"),
         positive=True,
@@ -174,32 +178,42 @@ class Beam(TwoFrames):
         """Frames at `frames_at`."""
         return [Frame() for _ in self.frames_at]
 
-    def node_at(self, x: float, elements: int) -> int:
-        """Return the number of the node at x / length, of equal elements.
+    def node_at(self, x: float) -> int:
+        """Return the number of the node at x / length."""
+        return round(x * self._total_elements)
 
-        Raises
-        ------
-        DeclarationError
-            There is no node, or it is at an end of the beam.
-        """
-        node = round(x * elements)
-        if not 0 < node < elements or abs(x * elements - node) > ROUNDING:
-            raise DeclarationError(
-                f"frames_at contains {x!r}, but {elements} elements have nodes at multiples of 1/{elements} between the ends: "
-                "choose the number of elements, or of volumes, such that one is there."
-            )
-        return node
+    @property
+    def _total_elements(self) -> int:
+        """Number of elements between frame_a and frame_b."""
+        raise NotImplementedError("returns the number of elements", "return self.elements")
+
+    @property
+    def loads(self) -> tuple[Load, ...]:
+        """The distributed loads."""
+        return (self.distributed,) if isinstance(self.distributed, Load) else tuple(self.distributed)
 
     def check(self) -> None:
-        """Refuse torsion without inertia.
+        """Refuse what cannot be.
 
         Raises
         ------
         DeclarationError
-            torsional_inertia is 0.
+            Torsion without inertia, shear without stiffness, a frame where no node is, or a load of another class.
         """
+        n = self._total_elements
         if self.torsion and self.torsional_inertia.sx.is_zero():
             raise DeclarationError("torsion=True needs torsional_inertia > 0: give it, or torsion=False.")
+        if self.shear and isinstance(self.section, Section):
+            self.section.with_units().shear()
+        for x in self.frames_at:
+            if not 0 < self.node_at(x) < n or abs(x * n - self.node_at(x)) > ROUNDING:
+                raise DeclarationError(
+                    f"frames_at contains {x!r}, but {n} elements have nodes at multiples of 1/{n} between the ends: choose "
+                    "the number of elements, or of volumes, such that one is there."
+                )
+        given = self.distributed if isinstance(self.distributed, list | tuple) else (self.distributed,)
+        if wrong := [load for load in given if not isinstance(load, Load)]:
+            raise DeclarationError(f"distributed takes a Load, or several, not {wrong[0]!r}.")
 
     def validity(self):
         if self.check_range:

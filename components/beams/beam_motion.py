@@ -226,7 +226,7 @@ class BeamMotion:
     @cached_property
     def _inner(self) -> list[tuple[int, Any]]:
         beam = self.beam
-        return [(beam.node_at(x, self.n), frame) for x, frame in zip(beam.frames_at, beam.frames_inner, strict=True)]
+        return [(beam.node_at(x), frame) for x, frame in zip(beam.frames_at, beam.frames_inner, strict=True)]
 
     def inner_frames(self) -> list[tuple[int, Any]]:
         """Numbers of the nodes with an inner frame, and these frames."""

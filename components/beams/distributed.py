@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from acausal import as_expr, cross, dot, quantity, time
+from acausal import DeclarationError, as_expr, cross, dot, quantity, time
 from components.beams.load import Load
 from components.beams.nodes import Nodes
 from components.beams.pair import Pair
@@ -51,8 +51,7 @@ def point_loads(motion: Any) -> Iterator[PointLoad]:
     motion : BeamMotion
         Motion of the beam.
     """
-    loads = motion.beam.distributed
-    for load in (loads,) if isinstance(loads, Load) else loads:
+    for load in motion.beam.loads:
         for s, weight, elements in load.points(motion.n):
             at = Station(motion.strain, s, ZERO)
             (U, Ud, _), (c, cd, _) = motion.coordinates, motion.bubbles
@@ -81,6 +80,8 @@ def _resolved(x: Any, unit: str, load: Load, ref: Any, T: Any, dx: Any) -> Any:
     if x is None:
         return as_expr(np.zeros(3))
     x = as_expr(x)
+    if x.shape != (3,):
+        raise DeclarationError(f"force and moment of a Load are vectors of 3, not {x!r}.")
     x = x if x.unit is not None else quantity(1.0, unit) * x
     return dx * (resolve2(ref.R, x) if load.axes == "world" else T.T @ x)
 

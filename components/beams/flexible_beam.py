@@ -76,6 +76,11 @@ class FlexibleBeam(Beam):
         return Frame() if self.reference == "pinned" else None
 
     @property
+    def _total_elements(self) -> int:
+        """Number of elements."""
+        return self.elements
+
+    @property
     def free(self) -> list[int]:
         """Indices of the nodal coordinates that are states, six of each node."""
         return [k for k in self._unfixed if self._deforms(k)]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import inspect
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -36,7 +37,7 @@ class Load:
     Raises
     ------
     DeclarationError
-        The axes are unknown, or `between` is not within 0 and 1 in ascending order.
+        The axes are unknown, `between` is not within 0 and 1 in ascending order, or a function has other arguments.
     """
 
     force: Any = None
@@ -52,6 +53,11 @@ class Load:
             raise DeclarationError(
                 f"between of a Load is (first, last) with 0 <= first < last <= 1, not {self.between!r}."
             )
+        for name, value in (("force", self.force), ("moment", self.moment)):
+            if callable(value) and not _takes_five(value):
+                raise DeclarationError(
+                    f"{name} of a Load is a vector or a function f(s, t, r, v, R), with five arguments."
+                )
 
     def part(self, k: int, parts: int) -> Load | None:
         """Return the load on one of several equal parts of the beam, None if there is none."""
@@ -83,3 +89,13 @@ class Load:
         """Return force and moment per length, None where there is none."""
         force, moment = (x(s, t, r, v, R) if callable(x) else x for x in (self.force, self.moment))
         return force, moment
+
+
+def _takes_five(function: Callable[..., Any]) -> bool:
+    try:
+        inspect.signature(function).bind(*range(5))
+    except TypeError:
+        return False
+    except ValueError:  # a function of C, which does not tell
+        return True
+    return True

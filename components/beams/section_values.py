@@ -11,13 +11,7 @@ EQUIVALENT = "With a Section, which has its own stiffness and mass, the value fo
 
 
 def of_section(beam: Any, name: str) -> Any:
-    """Return the default value of a parameter of a beam.
-
-    Raises
-    ------
-    DeclarationError
-        The parameter is needed, because the beam has no section, or one without a material.
-    """
+    """Return the default value of a parameter of a beam, None if it must be given."""
     if name == "G":
         section = _general(beam)
         return beam.E / (2 * (1 + beam.nu)) if section is None else section.GJ_t / beam.J_t
@@ -25,23 +19,9 @@ def of_section(beam: Any, name: str) -> Any:
         return _torsional_inertia(beam)
     if (section := _general(beam)) is not None:
         return _equivalent(beam, section, name)
-    if name in ("E", "rho"):
-        raise _missing(beam, name, f"{name}=...")
-    root = _at(beam, 0.0)
-    if root is not None:
+    if (root := _at(beam, 0.0)) is not None and name not in ("E", "rho"):
         return getattr(root, "J_z" if name == "J" else name)
-    if name == "J_y":
-        return beam.J
-    if name == "J_t":
-        return beam.J + beam.J_y
-    raise _missing(beam, name, "section=Rectangle(width=..., height=...), or A=..., J=...")
-
-
-def _missing(beam: Any, name: str, remedy: str) -> DeclarationError:
-    declared = beam.fields[name]
-    return DeclarationError(
-        f"a value is needed for `{name}` ({declared.description}): {type(beam).__name__}(..., {remedy})."
-    )
+    return {"J_y": lambda: beam.J, "J_t": lambda: beam.J + beam.J_y}.get(name, lambda: None)()
 
 
 def _at(beam: Any, x: float) -> Any:

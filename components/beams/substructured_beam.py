@@ -69,15 +69,19 @@ class SubstructuredBeam(Beam):
 
     def _loads_on(self, k: int) -> tuple[Load, ...]:
         """Distributed loads on volume k."""
-        loads = (self.distributed,) if isinstance(self.distributed, Load) else self.distributed
-        found = (load.part(k, self.volumes) for load in loads)
+        found = (load.part(k, self.volumes) for load in self.loads)
         return tuple(load for load in found if load is not None)
+
+    @property
+    def _total_elements(self) -> int:
+        """Number of elements of all volumes."""
+        return self.volumes * self.elements_per_volume
 
     def _inner_of(self, k: int) -> list[tuple[int, float]]:
         """Numbers of the inner frames within volume k, and their places x / length in it."""
         n, found = self.elements_per_volume, []
         for number, x in enumerate(self.frames_at):
-            volume, rest = divmod(self.node_at(x, self.volumes * n), n)
+            volume, rest = divmod(self.node_at(x), n)
             if volume == k and rest:
                 found.append((number, rest / n))
         return found
@@ -93,7 +97,7 @@ class SubstructuredBeam(Beam):
             yield chain(*self.volume)
         yield connect(self.volume[-1].frame_b, self.frame_b)
         for x, frame in zip(self.frames_at, self.frames_inner, strict=True):
-            volume, rest = divmod(self.node_at(x, self.volumes * self.elements_per_volume), self.elements_per_volume)
+            volume, rest = divmod(self.node_at(x), self.elements_per_volume)
             if not rest:
                 yield connect(self.volume[volume].frame_a, frame)
         for k, volume in enumerate(self.volume):

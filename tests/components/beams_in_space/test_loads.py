@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal import Model, chain, fixed, part, sin, structural
-from components import Body, Load, Revolute, World
+from components import Body, Load, Revolute, Section, World
 from tests.components.beams_in_space.scenes import Cantilever, beam_of
 
 L, EJ_Z, EJ_Y, GJ = 2.0, 4.0, 1.0, 0.6
@@ -109,9 +109,27 @@ def test_power_of_the_loads_is_supplied(shape):
     [
         ({"axes": "body"}, "axes of a Load"),
         ({"between": (0.5, 0.2)}, "between of a Load"),
-        ({"between": (0, 2)}, "between"),
+        ({"between": (0, 2)}, "between of a Load"),
+        ({"moment": lambda s: (0, 0, s)}, "moment of a Load is a vector or a function"),
     ],
 )
 def test_wrong_loads_are_refused(wrong, text):
     with pytest.raises(ac.DeclarationError, match=text):
         Load((0, 0, 1), **wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "text"),
+    [
+        ({"distributed": 3}, "distributed takes a Load, or several, not 3"),
+        ({"distributed": Load((1, 2))}, "force and moment of a Load are vectors of 3"),
+        ({"A": None, "section": None}, "needs a value for `A`"),
+        ({"section": 2.0}, "`section` takes a Rectangle"),
+        ({"section": Section(1, 1, 1, 1, 1, 1, 1), "shear": True}, "shear=True needs the shear stiffnesses"),
+        ({"torsional_inertia": 0}, "torsion=True needs torsional_inertia > 0"),
+    ],
+)
+def test_beams_that_cannot_be_are_refused(wrong, text):
+    kind = {name: value for name, value in (BEAM | wrong).items() if value is not None}
+    with pytest.raises(ac.DeclarationError, match=text):
+        ac.compile(Cantilever(kind=kind))
