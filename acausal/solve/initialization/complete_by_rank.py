@@ -87,11 +87,12 @@ def complete_by_rank(
     M, C = _reduced(problem, at, free, rows, flag)
     used, surplus = _independent(M, C)
     if surplus:
-        # A condition may be independent around the point but not at it.
+        # A condition may be independent around the point but not at it. Away from the constraints, where rates violate them,
+        # redundant ones would count as independent.
         shake = POLICY.ranks.shake * np.random.default_rng(0).standard_normal(len(free))
         moved = at.x.copy()
         moved[free] += shake * problem.loop_scales[free]
-        M, C = _reduced(problem, replace(at, x=moved), free, rows, flag)
+        M, C = _reduced(problem, close(problem, replace(at, x=moved), np.array(fixed, int))[0], free, rows, flag)
         used, surplus = _independent(M, C)
     determined = (M.shape[0] if is_regular(M) else rank(M.toarray())) + len(used)
     left = _left(compiled, np.vstack([M.toarray(), C[used]]), determined, free) if determined < len(free) else []

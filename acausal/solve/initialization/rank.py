@@ -64,11 +64,15 @@ def least_norm(
 def factored(
     J: scipy.sparse.csc_matrix, sizes: np.ndarray, cutoff: float, order: str = "COLAMD"
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Return a solver by sparse LU factors, by `least_norm` if the matrix is singular or not square."""
+    """Return a solver by sparse LU factors, by `least_norm` with rows of length 1 if the matrix is singular or not square."""
     try:
         return scipy.sparse.linalg.splu(J.tocsc(), permc_spec=order).solve
     except (RuntimeError, ValueError):
-        return least_norm(J.toarray(), sizes, cutoff)
+        rows = J.toarray()
+        length = np.linalg.norm(rows * sizes, axis=1, keepdims=True)
+        length[~(length > 0)] = 1.0
+        solve = least_norm(rows / length, sizes, cutoff)
+        return lambda right: solve((right.T / length[:, 0]).T)
 
 
 def null_space(rows: np.ndarray | scipy.sparse.csc_matrix, independent: int | None = None) -> np.ndarray:
