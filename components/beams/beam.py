@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from math import lcm
 from typing import Any, ClassVar
 
 from acausal import DeclarationError, Scalar, effect, observed, parameter, parts, sqrt, structural
@@ -14,6 +16,7 @@ from components.frame import Frame, TwoFrames
 from components.orientation import resolve2
 
 ROUNDING = 1e-9  # of the place of a node, in elements
+FINEST = 100  # denominator of a place that a message suggests as a node
 
 
 class Beam(TwoFrames):
@@ -207,9 +210,10 @@ class Beam(TwoFrames):
             self.section.with_units().shear()
         for x in self.frames_at:
             if not 0 < self.node_at(x) < n or abs(x * n - self.node_at(x)) > ROUNDING:
+                parts = lcm(*(Fraction(x).limit_denominator(FINEST).denominator for x in self.frames_at))
                 raise DeclarationError(
-                    f"frames_at contains {x!r}, but {n} elements have nodes at multiples of 1/{n} between the ends: choose "
-                    "the number of elements, or of volumes, such that one is there."
+                    f"frames_at contains {x!r}, but {n} elements have nodes at multiples of 1/{n} between the ends: take a "
+                    f"multiple of {parts} elements, or volumes."
                 )
         given = self.distributed if isinstance(self.distributed, list | tuple) else (self.distributed,)
         if wrong := [load for load in given if not isinstance(load, Load)]:

@@ -91,6 +91,10 @@ class BeamMotion:
         """Quasi-static change of length of every element, in m."""
         return self.l * inverse(self.strain.stiffness.EA) * self.beam.tension
 
+    def stretch_before(self, node: int) -> Any:
+        """Displacement of a node by the quasi-static stretch of the elements before it, in m."""
+        return as_expr((sum(list(self.stretches())[:node]), 0.0, 0.0))
+
     @cached_property
     def shape(self) -> Nodes:
         """Nodal coordinates of the displayed shape in metres, including a quasi-static stretch."""
@@ -104,12 +108,7 @@ class BeamMotion:
 
     def place(self, node: int, U: Nodes) -> Any:
         """Position of a node in the reference frame, in m."""
-        return as_expr((node * self.l + U.u[node], U.v[node], U.w[node]))
-
-    def end(self) -> Any:
-        """Position of the last node in the reference frame, in m."""
-        U = self.coordinates[0]
-        return as_expr((self.beam.length + U.u[-1], U.v[-1], U.w[-1]))
+        return as_expr((node / self.n * self.beam.length + U.u[node], U.v[node], U.w[node]))
 
     def middle(self) -> Any:
         """Position of the material midpoint in the reference frame, in m."""
@@ -239,10 +238,11 @@ class BeamMotion:
 
     def resultant(self, f_b: Any, t_b: Any) -> tuple[Any, Any]:
         """Force and moment about the origin of the loads at frame_b, and at inner frames."""
-        force, moment = f_b, t_b + cross(self.end(), f_b)
+        U = self.coordinates[0]
+        force, moment = f_b, t_b + cross(self.place(self.n, U), f_b)
         for node, frame in self._inner:
             f, t = self.inner_load(node, frame)
-            force, moment = force + f, moment + t + cross(self.place(node, self.coordinates[0]), f)
+            force, moment = force + f, moment + t + cross(self.place(node, U), f)
         return force, moment
 
     def loads(self, t_a: Any, f_b: Any, t_b: Any) -> list[Any]:

@@ -123,21 +123,21 @@ class FlexibleBeam(Beam):
         ref, b, motion = self.ref, self.frame_b, BeamMotion(self)
         if self.free:
             yield from (self.qd == der(self.q), self.qdd == der(self.qd))
-        r_b, R_b = motion.end(), motion.rotation(-1).orientation()
         R_a = motion.rotation(0).orientation() if self.reference == "pinned" else null_rotation()
         if self.reference == "pinned":
             yield from move(ref, self.frame_a, np.zeros(3), R_a)
         # The closure of a loop cannot depend on forces: in loops only the beam's own results show a quasi-static stretch.
-        moves_tip = self.axial == "quasi_static" and not in_loop(self)
-        yield from move(ref, b, r_b, R_b, as_expr((sum(motion.stretches()), 0.0, 0.0)) if moves_tip else None)
+        stretches = self.axial == "quasi_static" and not in_loop(self)
+        for node, frame in [(self.elements, b), *motion.inner_frames()]:
+            r, R = motion.place(node, motion.coordinates[0]), motion.rotation(node).orientation()
+            yield from move(ref, frame, r, R, motion.stretch_before(node) if stretches else None)
 
         f_a, t_a = resolve1(R_a, self.frame_a.f), resolve1(R_a, self.frame_a.t)
+        R_b = motion.rotation(-1).orientation()
         f_b, t_b = resolve1(R_b, b.f), resolve1(R_b, b.t)
         force, moment, inertia = motion.inertia_forces()
         drag = motion.drag()
         balance = inertia.plus(motion.elastic()).plus(drag).entries()
-        for node, frame in motion.inner_frames():
-            yield from move(ref, frame, motion.place(node, motion.coordinates[0]), motion.rotation(node).orientation())
         load, balanced = motion.loads(t_a, f_b, t_b), self._balanced
         if self.reference == "pinned":  # phi of both ends is one coordinate
             balance[-1], load[-1] = balance[-1] - balance[5], load[-1] - load[5]
@@ -173,18 +173,14 @@ class FlexibleBeam(Beam):
                 if not motion.inner_frames():
                     tip[axis] = balance[last + k]
         known = [last + k in balanced for k in ROTATIONS]
-        on, t = (
-            [
+        if all(known) or known == [True, False, False]:
+            on = [
                 balance[last + k] * motion.l if found else as_expr(0.0)
                 for k, found in zip(ROTATIONS, known, strict=True)
-            ],
-            t_b,
-        )
-        if all(known):
-            t = motion.rotation(-1).torque(on)
-        elif known == [True, False, False]:
-            t = as_expr((t_b[0], t_b[1], motion.rotation(-1).torque(on)[2]))
-        return as_expr(rest), as_expr(far), motion.resultant(as_expr(tip), t)[1]
+            ]
+            torque = motion.rotation(-1).torque(on)
+            t_b = torque if all(known) else as_expr((t_b[0], t_b[1], torque[2]))
+        return as_expr(rest), as_expr(far), motion.resultant(as_expr(tip), t_b)[1]
 
     def initial_equations(self):
         if self.initial != "free" and self.free:

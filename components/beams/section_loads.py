@@ -24,7 +24,7 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
     motion, ref, b = BeamMotion(beam), beam.ref, beam.frame_b
     U, inertia, sections = motion.coordinates[0], motion.inertia, motion.sections
     alpha, a = beam.alpha if beam.damping else 0.0, motion.acceleration()
-    T_b, r_b = motion.rotation(-1).matrix(), motion.end()
+    T_b, r_b = motion.rotation(-1).matrix(), motion.place(motion.n, U)
     force = T_b.T @ b.f
     if beam.reference == "pinned":
         spin = inertia.deformation_momentum()[1] + sections.momentum()[0]
