@@ -71,6 +71,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
         "largest_block": max(sizes, default=0),
         "jacobian_nonzeros": int(local.nnz_out(1)),
         "operations": int(local.n_instructions()),
+        "defaults": {path: flat.parameters.bound[path] for path in flat.parameters.defaults},
         "structural_zeros": list(flat.parameters.structural_zeros),
         "stays_zero": list(flat.stays_zero),
         "algebraic_loops": algebraic_loops(reduced),
@@ -100,6 +101,8 @@ def summary(r: Mapping[str, Any]) -> str:
         f"  algebraic     {_list(r['algebraic'])}",
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
+    if r["defaults"]:
+        lines.append(f"  defaults      {_list([f'{path} (from {others})' for path, others in r['defaults'].items()])}")
     if r["stays_zero"]:
         names = compressed(r["stays_zero"])
         more = f" and {len(names) - FEW} more" if len(names) > FEW else ""

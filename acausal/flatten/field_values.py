@@ -40,7 +40,7 @@ class Parameters:
 
     `tables` are the tables by the place of their number; `raised` see `add_table`.
     `structural_zeros` are the names of entries that are exactly 0 and have no symbol; `bound` are the paths of
-    parameters that depend on others.
+    parameters that depend on others, `defaults` those of parameters that take their default.
     """
 
     names: list[str] = field(default_factory=list)
@@ -48,6 +48,7 @@ class Parameters:
     values: list[float] = field(default_factory=list)
     structural_zeros: list[str] = field(default_factory=list)
     bound: dict[str, str] = field(default_factory=dict)
+    defaults: list[str] = field(default_factory=list)
     limits: list[tuple[str, ca.SX, f.Parameter]] = field(default_factory=list)
     tables: dict[int, Table | External] = field(default_factory=dict)
     raised: set[int] = field(default_factory=set)
@@ -151,6 +152,7 @@ class FieldValues:
             value = bound._values.get(name, f.MISSING)
         if value is f.MISSING:
             default = bound._class_values.get(name, declared.default)
+            self.parameters.defaults.append(join(bound._path, name))
             value = self._evaluated(bound, name, default)
             if value is None and callable(default) and isinstance(declared, f.Parameter):
                 value = f.MISSING

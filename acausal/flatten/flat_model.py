@@ -175,6 +175,8 @@ class FlatParameters:
         Paths of parameters with bounds, their expressions in free ones, and their declarations.
     bound : mapping of str to str
         Parameters that depend on others, and the names of these.
+    defaults : tuple of str
+        Those that depend on others by default.
     structural_zeros : tuple of str
         Entries that were exactly 0 when compiled and have no symbol.
     tables : mapping of int to Table or External
@@ -189,6 +191,7 @@ class FlatParameters:
     weighing: tuple[str, ...]
     limits: tuple[tuple[str, ca.SX, f.Parameter], ...]
     bound: Mapping[str, str]
+    defaults: tuple[str, ...]
     structural_zeros: tuple[str, ...]
     tables: Mapping[int, Table | External]
     raised: frozenset[int]

@@ -20,6 +20,7 @@ def flat_parameters(raw: CollectedStatements) -> FlatParameters:
         weighing=weighing(raw),
         limits=tuple(own.limits),
         bound=own.bound,
+        defaults=tuple(path for path in own.defaults if path in own.bound),
         structural_zeros=tuple(own.structural_zeros),
         tables=dict(own.tables),
         raised=frozenset(own.raised),

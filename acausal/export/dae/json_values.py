@@ -45,7 +45,7 @@ FIELDS: dict[type, str] = {
     Loop: "a b where parts constraints dropped undetermined kind",
     FlatUnknowns: "symbols names derivative declared preference nominal sized units start guessed eliminated",
     FlatEquations: "residuals origins defines initial redundant",
-    FlatParameters: "symbols names values weighing limits bound structural_zeros tables raised",
+    FlatParameters: "symbols names values weighing limits bound defaults structural_zeros tables raised",
     FlatDiscontinuities: "switches guards discretes continuous promises laws kinks",
     FlatLoops: "cuts closures folded",
     FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts stays_zero",

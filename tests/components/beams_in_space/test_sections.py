@@ -170,3 +170,16 @@ def test_sections_and_loads_take_parameters_of_the_model():
         result = ac.simulate(model, stop_time=1e-4, intervals=1, parameters={"d": d, "q": q})
         EJ = 2e11 * np.pi / 64 * d**4
         assert result["beam.frame_b.r_0"][0, 1] == pytest.approx(q / (8 * EJ), rel=1e-4)
+
+
+def test_report_lists_defaults_that_were_taken():
+    kind = {"length": 1.0, "E": 1e9, "rho": 1e3, "A": 1e-4, "J": 1e-9, "J_t": 2e-9, "volumes": 2}
+    assert ac.compile(Cantilever(kind=kind)).report["defaults"] == {
+        "beam.G": "beam.E, beam.nu",
+        "beam.J_y": "beam.J",
+        "beam.torsional_inertia": "beam.rho, beam.J, beam.length",
+    }
+    given = ac.compile(Cantilever(kind=kind), {"beam.J_y": 2e-9, "beam.G": 1e9})
+    assert list(given.report["defaults"]) == ["beam.torsional_inertia"]
+    solid = ac.compile(Cantilever(kind={"length": 1.0, "E": 1e9, "G": 4e8, "rho": 1e3, "section": Rectangle(0.1, 0.2)}))
+    assert list(solid.report["defaults"]) == ["beam.torsional_inertia"]
