@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from math import pi
 from typing import Any
 
 import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, chain, fixed, part, sin, structural
+from acausal import Model, as_expr, chain, fixed, part, sin, structural
 from components import Body, Load, Revolute, Section, World
 from tests.components.beams_in_space.scenes import Cantilever, beam_of
 
@@ -102,6 +103,37 @@ def test_power_of_the_loads_is_supplied(shape):
     stats = result.stats
     assert abs(stats["energy_supplied"]) > 0.1
     assert abs(stats["energy_method"]) < 4e-6 * (abs(stats["energy_supplied"]) + abs(stats["energy_stored_change"]))
+
+
+def strip_theory(V: float, e: float, incidence: float = 0.0) -> Load:
+    """Lift 2 pi q c alpha at the distance e upstream of the axis, in air that flows along y with the speed V; rho = c = 1."""
+
+    def lift(s, t, r, v, R):
+        stream = np.array((0.0, V, -V * incidence)) - v
+        return as_expr((0.0, 0.0, pi * V * (R.T @ stream)[2]))
+
+    def moment(*state):
+        return as_expr((-e * lift(*state)[2], 0.0, 0.0))
+
+    return Load(lift, moment, axes="section")
+
+
+@pytest.mark.parametrize("shape", SHAPES[:3])
+def test_wing_twists_in_an_air_stream(shape):
+    """GJ phi'' + 2 pi q c e (phi + incidence) = 0: phi = incidence (1 / cos(k L) - 1) at the tip diverges at k L = pi / 2."""
+    e, small = 0.01, 1e-4
+    for kL in (0.5, 1.2):
+        V = kL / L * np.sqrt(GJ / (pi * e))
+        found = tip(distributed=strip_theory(V, e, small), **shape)
+        assert found[3] == pytest.approx(small * (1 / np.cos(kL) - 1), rel=2e-2)
+
+
+def test_air_stream_damps_bending():
+    """Lift pi rho V c against the velocity damps all modes by pi rho V c / (2 m)."""
+    V, mass = 0.1, BEAM["rho"] * BEAM["A"]
+    kind = BEAM | {"elements": 4, "distributed": strip_theory(V, 0.0), "bending": "xz", "torsion": False}
+    values = np.linalg.eigvals(ac.linearize(Cantilever(kind=kind | {"axial": "none"})).A)
+    np.testing.assert_allclose(values.real, -pi * V / (2 * mass), rtol=1e-6)
 
 
 @pytest.mark.parametrize(
