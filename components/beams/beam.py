@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from math import lcm
 from typing import Any, ClassVar
 
 from acausal import DeclarationError, Scalar, effect, observed, parameter, parts, sqrt, structural
@@ -16,7 +14,7 @@ from components.frame import Frame, TwoFrames
 from components.orientation import resolve2
 
 ROUNDING = 1e-9  # of the place of a node, in elements
-FINEST = 100  # denominator of a place that a message suggests as a node
+FINEST = 100  # elements, or volumes, for a node at every inner frame
 
 
 class Beam(TwoFrames):
@@ -81,7 +79,8 @@ class Beam(TwoFrames):
     frames_at: Any = structural(
         "places x / length of inner frames",
         default=(),
-        doc="Ports frames_inner[0], ... at nodes: fixed to the section there, which turns with the beam.",
+        doc="Ports frames_inner[0], ..., fixed to the section there, which turns with the beam. At nodes: equal elements, or "
+        "volumes, are as many as have nodes there, at least the given number.",
     )
     reference: str = structural(
         "reference frame",
@@ -181,14 +180,24 @@ class Beam(TwoFrames):
         """Frames at `frames_at`."""
         return [Frame() for _ in self.frames_at]
 
-    def node_at(self, x: float) -> int:
-        """Return the number of the node at x / length."""
-        return round(x * self._total_elements)
+    def _with_nodes(self, least: int, each: int = 1) -> int:
+        """Return how many parts of `each` elements have nodes at `frames_at`, from `least` on.
 
-    @property
-    def _total_elements(self) -> int:
-        """Number of elements between frame_a and frame_b."""
-        raise NotImplementedError("returns the number of elements", "return self.elements")
+        Raises
+        ------
+        DeclarationError
+            A place is outside the beam, or needs too many elements.
+        """
+        for x in self.frames_at:
+            if not 0 < x < 1:
+                raise DeclarationError(f"frames_at contains {x!r}, which is not between 0 and 1.")
+        for n in range(least, max(least, FINEST) + 1):
+            if all(abs(x * n * each - round(x * n * each)) <= ROUNDING * n * each for x in self.frames_at):
+                return n
+        raise DeclarationError(
+            f"frames_at is {self.frames_at!r}, but meshes of up to {FINEST} elements have no nodes at all these places: "
+            "round them."
+        )
 
     @property
     def loads(self) -> tuple[Load, ...]:
@@ -201,20 +210,12 @@ class Beam(TwoFrames):
         Raises
         ------
         DeclarationError
-            Torsion without inertia, shear without stiffness, a frame where no node is, or a load of another class.
+            Torsion without inertia, shear without stiffness, or a load of another class.
         """
-        n = self._total_elements
         if self.torsion and self.torsional_inertia.sx.is_zero():
             raise DeclarationError("torsion=True needs torsional_inertia > 0: give it, or torsion=False.")
         if self.shear and isinstance(self.section, Section):
             self.section.with_units().shear()
-        for x in self.frames_at:
-            if not 0 < self.node_at(x) < n or abs(x * n - self.node_at(x)) > ROUNDING:
-                parts = lcm(*(Fraction(x).limit_denominator(FINEST).denominator for x in self.frames_at))
-                raise DeclarationError(
-                    f"frames_at contains {x!r}, but {n} elements have nodes at multiples of 1/{n} between the ends: take a "
-                    f"multiple of {parts} elements, or volumes."
-                )
         given = self.distributed if isinstance(self.distributed, list | tuple) else (self.distributed,)
         if wrong := [load for load in given if not isinstance(load, Load)]:
             raise DeclarationError(f"distributed takes a Load, or several, not {wrong[0]!r}.")

@@ -31,7 +31,7 @@ class BeamChain:
     def __init__(self, beam: Any, frames: list[Any]) -> None:
         self.beam, self.frames = beam, frames
         self.motions = [BeamMotion(frame) for frame in frames]
-        self.n, self.l = frames[0].elements, as_expr(self.motions[0].l.sx)
+        self.n, self.l = frames[0]._elements, as_expr(self.motions[0].l.sx)
         self.count = self.n * len(frames)
 
     def joined(self, parts: Iterable[Any]) -> Any:

@@ -35,7 +35,7 @@ class BeamMotion:
     """
 
     def __init__(self, beam: Any) -> None:
-        self.beam, self.n, self.l = beam, beam.elements, beam.length / beam.elements
+        self.beam, self.n, self.l = beam, beam._elements, beam.length / beam._elements
         self.varies = callable(beam.section)
 
     def _section(self, s: float) -> Section:
@@ -225,7 +225,7 @@ class BeamMotion:
     @cached_property
     def _inner(self) -> list[tuple[int, Any]]:
         beam = self.beam
-        return [(beam.node_at(x), frame) for x, frame in zip(beam.frames_at, beam.frames_inner, strict=True)]
+        return [(round(x * self.n), frame) for x, frame in zip(beam.frames_at, beam.frames_inner, strict=True)]
 
     def inner_frames(self) -> list[tuple[int, Any]]:
         """Numbers of the nodes with an inner frame, and these frames."""

@@ -66,7 +66,7 @@ class FlexibleBeam(Beam):
     qdd: Any = variable("der(qd)", shape=lambda s: (len(s.free),), unit=lambda s: _units(s, "/s2"))
     tension: Any = variable(
         "axial force of each element, unless its stretch is a state",
-        shape=lambda s: (s.elements * s._has_tension,),
+        shape=lambda s: (s._elements * s._has_tension,),
         unit="N",
     )
 
@@ -76,9 +76,9 @@ class FlexibleBeam(Beam):
         return Frame() if self.reference == "pinned" else None
 
     @property
-    def _total_elements(self) -> int:
-        """Number of elements."""
-        return self.elements
+    def _elements(self) -> int:
+        """Number of elements, with nodes at inner frames."""
+        return self._with_nodes(self.elements)
 
     @property
     def free(self) -> list[int]:
@@ -98,7 +98,7 @@ class FlexibleBeam(Beam):
 
         The chord turns about its axis with the mean of both ends: phi of the first node is the opposite of that of the last.
         """
-        last = NODE * self.elements
+        last = NODE * self._elements
         fixed = range(NODE) if self.reference == "tangent" else (0, 1, 3, 5, last + 1, last + 3)
         return [k for k in range(last + NODE) if k not in fixed]
 
@@ -128,7 +128,7 @@ class FlexibleBeam(Beam):
             yield from move(ref, self.frame_a, np.zeros(3), R_a)
         # The closure of a loop cannot depend on forces: in loops only the beam's own results show a quasi-static stretch.
         stretches = self.axial == "quasi_static" and not in_loop(self)
-        for node, frame in [(self.elements, b), *motion.inner_frames()]:
+        for node, frame in [(self._elements, b), *motion.inner_frames()]:
             r, R = motion.place(node, motion.coordinates[0]), motion.rotation(node).orientation()
             yield from move(ref, frame, r, R, motion.stretch_before(node) if stretches else None)
 
@@ -165,7 +165,7 @@ class FlexibleBeam(Beam):
         """
         beyond, _ = motion.resultant(f_b, t_b)
         rest, far, tip = ([x[k] for k in range(3)] for x in (force, beyond, f_b))
-        balanced, last = self._balanced, NODE * self.elements
+        balanced, last = self._balanced, NODE * self._elements
         for axis, k in enumerate(TRANSLATIONS):
             if last + k in balanced:
                 far[axis] = as_expr(0.0)
@@ -189,7 +189,7 @@ class FlexibleBeam(Beam):
 
     @property
     def _l(self) -> Any:
-        return self.length / self.elements
+        return self.length / self._elements
 
     def stored_energy(self):
         """Kinetic, elastic and potential energy; strain energy of stretch only if it is dynamic."""
@@ -209,7 +209,7 @@ class FlexibleBeam(Beam):
         """Displacement (u, v, w) and rotation vector (phi, -w', v') of every node, shape (nodes, 6), in the reference frame."""
         motion, rows = BeamMotion(self), []
         U = motion.shape
-        for k in range(self.elements + 1):
+        for k in range(self._elements + 1):
             rows.append([U.u[k], U.v[k], U.w[k], *motion.rotation(k).vector()])
         return as_expr(rows)
 
@@ -217,7 +217,7 @@ class FlexibleBeam(Beam):
     def node_r_0(self):
         """Position of every node, shape (nodes, 3), resolved in the world, in m."""
         motion, ref = BeamMotion(self), self.ref
-        nodes = range(self.elements + 1)
+        nodes = range(self._elements + 1)
         local = as_expr([[*motion.place(k, motion.shape)] for k in nodes])
         origin = as_expr([[ref.r_0[i] for i in range(3)] for _ in nodes])
         return origin + local @ ref.R.T

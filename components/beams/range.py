@@ -37,7 +37,7 @@ def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
     frames : list of FlexibleBeam
         Its flexible beams, from frame_a to frame_b.
     """
-    if beam.bending == "none" or len({frame.elements for frame in frames}) > 1:
+    if beam.bending == "none" or len({frame._elements for frame in frames}) > 1:
         return
     chain = BeamChain(beam, frames)
     yield from rigid_range(chain)

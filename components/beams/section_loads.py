@@ -33,7 +33,7 @@ def section_loads(beam: Any) -> list[tuple[Any, Any]]:
     if beam.reference == "pinned":  # both ends guide the chord about its axis
         moment += alpha / 2 * as_expr((spin[0], 0.0, 0.0))
     loads = []
-    for k in range(beam.elements, -1, -1):
+    for k in range(beam._elements, -1, -1):
         at = motion.place(k, U)
         for node, frame in motion.inner_frames():
             if node == k:

@@ -25,7 +25,7 @@ def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
     frames : list of FlexibleBeam
         Its flexible beams, from frame_a to frame_b.
     """
-    count = len(frames) * frames[0].elements
+    count = len(frames) * frames[0]._elements
     fixed, first = (beam.frame_a, 0) if rooted(frames[0].ref, frames[0].frame_b) else (beam.frame_b, count)
     return geometry.Curve(
         points=beam.node_r_0,
@@ -54,10 +54,10 @@ def _tangents(frame: Any) -> list[Any]:
 
 def _moments(frame: Any) -> list[Any]:
     moment = frame.node_moment
-    return [moment[k, 2] for k in range(frame.elements + 1)]
+    return [moment[k, 2] for k in range(frame._elements + 1)]
 
 
 def _axial_forces(frame: Any) -> list[Any]:
     """Axial force in each section, in N, positive in tension."""
     force, motion = frame.node_force, BeamMotion(frame)
-    return [dot(motion.rotation(k).axis(), force[k]) for k in range(frame.elements + 1)]
+    return [dot(motion.rotation(k).axis(), force[k]) for k in range(frame._elements + 1)]

@@ -28,7 +28,7 @@ class SubstructuredBeam(Beam):
         """The volumes, from frame_a to frame_b."""
         return [
             FlexibleBeam(
-                length=self.length / self.volumes,
+                length=self.length / self._volumes,
                 section=self._section_of(k),
                 E=self.E,
                 nu=self.nu,
@@ -38,7 +38,7 @@ class SubstructuredBeam(Beam):
                 J=self.J,
                 J_y=self.J_y,
                 J_t=self.J_t,
-                torsional_inertia=self.torsional_inertia / self.volumes,
+                torsional_inertia=self.torsional_inertia / self._volumes,
                 elements=self.elements_per_volume,
                 reference=self.reference,
                 alpha=self.alpha,
@@ -59,29 +59,33 @@ class SubstructuredBeam(Beam):
                 frames_at=[x for _, x in self._inner_of(k)],
                 check_range=False,
             )
-            for k in range(self.volumes)
+            for k in range(self._volumes)
         ]
 
     def _section_of(self, k: int) -> Any:
         """Section of volume k."""
-        whole, n = self.section, self.volumes
+        whole, n = self.section, self._volumes
         return (lambda s: whole((k + s) / n)) if callable(whole) else whole
 
     def _loads_on(self, k: int) -> tuple[Load, ...]:
         """Distributed loads on volume k."""
-        found = (load.part(k, self.volumes) for load in self.loads)
+        found = (load.part(k, self._volumes) for load in self.loads)
         return tuple(load for load in found if load is not None)
 
     @property
-    def _total_elements(self) -> int:
-        """Number of elements of all volumes."""
-        return self.volumes * self.elements_per_volume
+    def _volumes(self) -> int:
+        """Number of volumes, with nodes at inner frames."""
+        return self._with_nodes(self.volumes, self.elements_per_volume)
+
+    def _node_at(self, x: float) -> tuple[int, int]:
+        """Return the volume with a node at x / length, and the number of the node in it."""
+        return divmod(round(x * self._volumes * self.elements_per_volume), self.elements_per_volume)
 
     def _inner_of(self, k: int) -> list[tuple[int, float]]:
         """Numbers of the inner frames within volume k, and their places x / length in it."""
         n, found = self.elements_per_volume, []
         for number, x in enumerate(self.frames_at):
-            volume, rest = divmod(self.node_at(x), n)
+            volume, rest = self._node_at(x)
             if volume == k and rest:
                 found.append((number, rest / n))
         return found
@@ -93,11 +97,11 @@ class SubstructuredBeam(Beam):
 
     def connections(self):
         yield connect(self.frame_a, self.volume[0].frame_a)
-        if self.volumes > 1:
+        if self._volumes > 1:
             yield chain(*self.volume)
         yield connect(self.volume[-1].frame_b, self.frame_b)
         for x, frame in zip(self.frames_at, self.frames_inner, strict=True):
-            volume, rest = divmod(self.node_at(x), self.elements_per_volume)
+            volume, rest = self._node_at(x)
             if not rest:
                 yield connect(self.volume[volume].frame_a, frame)
         for k, volume in enumerate(self.volume):
@@ -118,7 +122,7 @@ class SubstructuredBeam(Beam):
         turned = []
         for k, volume in enumerate(self.volume):
             motion, T = BeamMotion(volume), volume.ref.R.T @ a.R.T.T
-            own = [motion.rotation(i).matrix() @ T for i in range(0 if k == 0 else 1, volume.elements + 1)]
+            own = [motion.rotation(i).matrix() @ T for i in range(0 if k == 0 else 1, volume._elements + 1)]
             turned += [rotation_vector(R) for R in own]
         return as_expr(
             [[local[k, 0] - k * self.length / (n - 1), local[k, 1], local[k, 2], *turned[k]] for k in range(n)]
@@ -127,8 +131,8 @@ class SubstructuredBeam(Beam):
     @observed
     def middle_r_0(self):
         """Position of the material midpoint, resolved in the world, in m."""
-        half = self.volumes // 2
-        return self.volume[half].middle_r_0 if self.volumes % 2 else self.volume[half].frame_a.r_0
+        half = self._volumes // 2
+        return self.volume[half].middle_r_0 if self._volumes % 2 else self.volume[half].frame_a.r_0
 
     @observed
     def node_force(self):

@@ -31,7 +31,10 @@ DAMPED = {"alpha": 1.0, "beta": 1e-4}
 SWITCHED: Sequence[tuple[str, Any]] = (
     ("beam.axial", "quasi_static"),
     ("beam.axial", "none"),
-    ("beam.bending", False),
+    ("beam.bending", "none"),
+    ("beam.bending", "xy"),
+    ("beam.torsion", False),
+    ("beam.shear", True),
     ("beam.centrifugal", False),
     ("beam.coriolis", False),
     ("beam.damping", False),

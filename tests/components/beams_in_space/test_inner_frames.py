@@ -122,9 +122,20 @@ def test_static_stretch_moves_inner_frames():
         assert result[f"beam.frames_inner[{k}].r_0"][0, 0] - x == pytest.approx(1e-3 * x / EA, rel=1e-6)
 
 
-def test_a_place_without_a_node_is_refused():
+@pytest.mark.parametrize("kind", [{"elements": 1}, {"volumes": 1}, {"volumes": 1, "elements_per_volume": 2}])
+def test_elements_are_split_for_inner_frames(kind):
+    """0.25 and 0.75 need 4 elements."""
+    finer = {next(iter(kind)): 4 // kind.get("elements_per_volume", 1)}
+    one, other = run(Swing(kind=kind)), run(Swing(kind=kind | finer))
+    assert one["beam.node_r_0"].shape[1] == 5
+    for name in ("first.r_0", "tip.r_0", "beam.node_force"):
+        np.testing.assert_array_equal(one[name], other[name])
+
+
+@pytest.mark.parametrize(
+    ("places", "text"), [((0.5, 1.0), "1.0, which is not between 0 and 1"), ((0.123, 0.5), "up to 100 elements")]
+)
+def test_places_without_nodes_are_refused(places, text):
     for kind in ({"elements": 4}, {"volumes": 4}):
-        with pytest.raises(
-            ac.DeclarationError, match=r"frames_at contains 0.3, but 4 elements have nodes.*a multiple of 20"
-        ):
-            ac.compile(Swing(kind=kind | {"frames_at": (0.3, 0.75)}))
+        with pytest.raises(ac.DeclarationError, match=rf"beam \((Flexible|Substructured)Beam\), .*frames_at .*{text}"):
+            ac.compile(Swing(kind=kind | {"frames_at": places}))
