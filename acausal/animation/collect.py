@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from acausal.animation.geometry import QUANTITIES, STYLES, Shape
+from acausal.animation.geometry import PROFILES, QUANTITIES, STYLES, Shape
 from acausal.errors import AcausalError, DeclarationError, line_in
 from acausal.language.component import Component
 
@@ -74,8 +74,8 @@ def call_user_code(function: Callable[[], Any], path: str, kind: str) -> Any:
 
 
 def _check_words(component: Component, shape: Any) -> None:
-    """Raise an error for an unknown style or quantity."""
-    for name, known in (("style", STYLES), ("quantity", QUANTITIES)):
+    """Raise an error for an unknown style, quantity or profile."""
+    for name, known in (("style", STYLES), ("quantity", QUANTITIES), ("profile", PROFILES)):
         word = getattr(shape, name, known[0])
         if word not in known:
             allowed = ", ".join(map(repr, known))

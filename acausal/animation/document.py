@@ -19,7 +19,8 @@ VERSION = 1
 # The page interpolates rotations along the shortest path, which is wrong from half a turn between two frames on. Larger
 # rotations than this cause a warning, rad.
 LARGEST_TURN = 0.5
-# Lengths below this fraction of the size of the scene are written as 0: they are invisible and below the round-off of float32.
+# Lengths below this fraction of the size of the scene are written as 0, and entries of quaternions and directions below it: they
+# are invisible and below the round-off of float32.
 NEGLIGIBLE = 1e-9
 
 
@@ -53,11 +54,15 @@ def document(
 
 
 def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Scene]:
-    """Return the evaluated runs, with the default sizes of the largest one."""
+    """Return the evaluated runs, with the default sizes of the largest one, and without values that are 0 everywhere.
+
+    Requested values are kept.
+    """
     seen = shapes_of([run.tree for run in runs.values()], values)
     found = {name: scene_of(run, own) for (name, run), own in zip(runs.items(), seen, strict=True)}
     size = max(scene.size for scene in found.values())
-    return {name: scene.with_default_sizes(size) for name, scene in found.items()}
+    names = {v.name for scene in found.values() for v in scene.values() if np.any(v.entries)}.union(values)
+    return {name: scene.with_default_sizes(size).with_values(names) for name, scene in found.items()}
 
 
 def document_of(
@@ -126,8 +131,7 @@ class _Writer:
             if len(q) > 1:
                 between = rotation_angles(q)[np.diff(self.scene.run.time) > 0]
                 self.fastest = max(self.fastest, (float(np.max(between, initial=0)), owner.path))
-            q[np.abs(q) < NEGLIGIBLE] = 0
-            found = {"r": self.positions(pose.r), "q": self.columns.add(q)}
+            found = {"r": self.positions(pose.r), "q": self.columns.add(_rounded(q))}
             if str(found) not in self._known:
                 self._known[str(found)] = len(self.poses)
                 self.poses.append(found)
@@ -136,7 +140,7 @@ class _Writer:
 
     def positions(self, lengths: np.ndarray) -> Any:
         """Return the columns of positions in m, shape (times, ...)."""
-        return self.columns.add(np.where(np.abs(lengths) < NEGLIGIBLE * self.scene.size, 0, lengths), self.scene.size)
+        return self.columns.add(_rounded(lengths, self.scene.size), self.scene.size)
 
     def output(self, values: np.ndarray) -> Any:
         """Return the column of an output; round-off counts relative to its range, which a plot shows."""
@@ -197,7 +201,8 @@ class _Writer:
             "points": self.positions(s.points),
             "tangents": self.positions(s.tangents),
             "section": _plain(s.section),
-            "up": None if s.up is None else self.columns.add(s.up),
+            "up": None if s.up is None else self.columns.add(_rounded(s.up)),
+            "profile": s.profile,
             "rest": rest,
             "values": [{"name": v.name, "unit": v.unit, "columns": self.columns.add(v.entries)} for v in s.values],
         }
@@ -227,6 +232,11 @@ WRITE: dict[type, Callable[[_Writer, PartShape], dict[str, Any]]] = {
     g.Curve: _Writer.curve,
     g.Mesh: _Writer.mesh,
 }
+
+
+def _rounded(numbers: np.ndarray, size: float = 1.0) -> np.ndarray:
+    """Return numbers with 0 for those that are negligible beside a size."""
+    return np.where(np.abs(numbers) < NEGLIGIBLE * size, 0, numbers)
 
 
 def _plain(numbers: Any) -> Any:

@@ -15,27 +15,29 @@ from acausal.language.expression import as_expr
 from acausal.symbols import dense, stacked, vec
 
 Evaluate = Callable[[Any], np.ndarray]
-# Array shapes of the fields that vary with time and of those that do not; None stands for any length.
-MOVING: dict[type, dict[str, tuple[int | None, ...]]] = {
+# Array shapes of the fields that vary with time and of those that do not. None stands for any length; ... too, and for
+# one entry without this dimension.
+Size = tuple[Any, ...]
+MOVING: dict[type, dict[str, Size]] = {
     g.Pose: {"r": (3,), "T": (3, 3)},
     g.Span: {"start": (3,), "end": (3,)},
     g.Arrow: {"at": (3,), "vector": (3,)},
-    g.Curve: {"points": (None, 3), "tangents": (None, 3), "up": (3,)},
+    g.Curve: {"points": (None, 3), "tangents": (None, 3), "up": (..., 3)},
     g.Values: {"entries": (None,)},
     g.Mesh: {"q": (None,)},
 }
-FIXED: dict[type, dict[str, tuple[int | None, ...]]] = {
+FIXED: dict[type, dict[str, Size]] = {
     g.Ground: {"up": (3,)},
     g.Box: {"size": (3,), "axes": (3, 3)},
     g.Cylinder: {"start": (3,), "end": (3,), "diameter": ()},
     g.Sphere: {"diameter": ()},
     g.Axle: {"axis": (3,), "length": (), "diameter": ()},
     g.Span: {"diameter": ()},
-    g.Curve: {"section": (2,), "rest_points": (None, 3)},
+    g.Curve: {"section": (..., 2), "rest_points": (None, 3)},
     g.Mesh: {"vertices": (None, 3), "triangles": (None, 3), "modes": (None, None, 3)},
 }
 # Points that may vary although the shape is rigid: their motion is added to that of the pose.
-CARRIED: dict[type, dict[str, tuple[int | None, ...]]] = {g.Box: {"center": (3,)}, g.Sphere: {"center": (3,)}}
+CARRIED: dict[type, dict[str, Size]] = {g.Box: {"center": (3,)}, g.Sphere: {"center": (3,)}}
 # Evaluated numbers are constant if they vary by less than this fraction of the largest one: round-off.
 CONSTANT = 1e-9
 
@@ -45,7 +47,8 @@ def evaluate_shapes(
 ) -> tuple[list[PartShape], list[np.ndarray]]:
     """Return the shapes with arrays in place of expressions, and further scalars over time.
 
-    Arrays that vary with time have the shape (times, ...). None stays None, but becomes NaN in a section.
+    Arrays that vary with time have the shape (times, ...). None stays None, but becomes NaN in a section. `section` and `up`
+    of a curve have one entry or one for each point.
 
     Parameters
     ----------
@@ -123,7 +126,7 @@ class _Collector:
         """Return the shape unchanged."""
         return shape
 
-    def __call__(self, value: Any, size: tuple[int | None, ...], varies: bool, name: Callable[[], str]) -> Any:
+    def __call__(self, value: Any, size: Size, varies: bool, name: Callable[[], str]) -> Any:
         value = _number(value)
         if isinstance(value, np.ndarray):
             self.places.append(None)
@@ -132,10 +135,13 @@ class _Collector:
             expression = _expression(value, name)
             shape = expression.shape
             self.places.append(self.column(vec(expression.sx)))
-        if len(shape) != len(size) or any(n not in (None, m) for n, m in zip(size, shape, strict=True)):
-            wanted = tuple("n" if n is None else n for n in size)
-            raise DeclarationError(f"{name()} has shape {shape}; it needs {wanted}.".replace("'", ""))
-        self.sizes.append(shape)
+        one = ... in size and len(shape) < len(size)
+        full = (1, *shape) if one else shape
+        if len(full) != len(size) or any(n not in (None, ..., m) for n, m in zip(size, full, strict=True)):
+            wanted = tuple("n" if n in (None, ...) else n for n in size)
+            either = f"{size[1:]} or " if ... in size else ""
+            raise DeclarationError(f"{name()} has shape {shape}; it needs {either}{wanted}.".replace("'", ""))
+        self.sizes.append(full)
         return value
 
 
@@ -160,10 +166,10 @@ class _Results:
                 shape = replace(shape, **{name: at[0]})
         return shape
 
-    def __call__(self, value: Any, size: tuple[int | None, ...], varies: bool, name: Callable[[], str]) -> Any:
+    def __call__(self, value: Any, size: Size, varies: bool, name: Callable[[], str]) -> Any:
         place, shape = next(self._next)
         if place is None:
-            numbers = _number(value)
+            numbers = _number(value).reshape(shape)
             return np.broadcast_to(numbers, (self.times, *shape)) if varies else numbers
         found = self.values[:, place]
         found = found.reshape(self.times, *shape, order="F") if shape else found[:, 0]

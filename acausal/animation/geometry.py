@@ -13,7 +13,8 @@ from typing import Any, Literal, get_args
 
 Style = Literal["coil", "rod", "rail"]
 Quantity = Literal["force", "torque"]
-STYLES, QUANTITIES = get_args(Style), get_args(Quantity)
+Profile = Literal["ellipse", "rectangle"]
+STYLES, QUANTITIES, PROFILES = get_args(Style), get_args(Quantity), get_args(Profile)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,10 +117,14 @@ class Curve:
         Points, resolved in the world, in m.
     tangents : shape (n, 3), optional
         Derivatives with respect to a parameter that grows by 1 from each point to the next; by default of a smooth curve.
-    section : pair
-        Half-axes of the elliptic section along `up` x tangent and along `up`, in m; None for a default that suits the scene.
-    up : shape (3,), optional
-        Direction of the second half-axis at the first point, resolved in the world.
+    section : pair, or shape (n, 2)
+        Half-axes of the section along `up` x tangent and along `up`, in m, of all points or of each, linear between them; None
+        for a default that suits the scene.
+    up : shape (3,) or (n, 3), optional
+        Direction of the second half-axis, resolved in the world: at the first point, from where it continues without twist, or
+        at each point.
+    profile : str
+        Section between the half-axes: "ellipse" or "rectangle".
     rest : Pose, optional
         Pose of the undeformed curve, with `rest_points`. Deformations are measured from the chord if it is None, or if another
         shape is attached to the end that moves relative to it.
@@ -133,6 +138,7 @@ class Curve:
     tangents: Any = None
     section: Any = (None, None)
     up: Any = None
+    profile: Profile = "ellipse"
     rest: Pose | None = None
     rest_points: Any = None
     values: Sequence[Values] = ()

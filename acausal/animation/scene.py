@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -93,6 +93,21 @@ class Scene:
     high: np.ndarray
     size: float
     up: np.ndarray
+
+    def values(self) -> Iterator[g.Values]:
+        """Yield the values of all curves."""
+        for one in self.shapes:
+            if isinstance(one.shape, g.Curve):
+                yield from one.shape.values
+
+    def with_values(self, names: Collection[str]) -> Scene:
+        """Return the scene with the values of these names only."""
+        shapes = []
+        for one in self.shapes:
+            if isinstance(curve := one.shape, g.Curve):
+                one = replace(one, shape=replace(curve, values=tuple(v for v in curve.values if v.name in names)))
+            shapes.append(one)
+        return replace(self, shapes=shapes)
 
     def with_default_sizes(self, size: float) -> Scene:
         """Return the scene with default sizes, for a scene of the given size in m, where none are declared."""

@@ -53,10 +53,20 @@ def _faults(shape: Any) -> Iterator[tuple[str, str]]:
             yield name, "is zero. Give a direction, such as (0, 0, 1)"
     if isinstance(shape, g.Box) and np.abs(shape.axes @ shape.axes.T - np.eye(3)).max() > ORTHONORMAL:
         yield "axes", "are not three orthogonal unit vectors, one in each row"
-    if isinstance(shape, g.Curve) and shape.points.shape[1] < 2:
-        yield "points", "needs at least two points"
+    if isinstance(shape, g.Curve):
+        yield from _curve_faults(shape)
     if isinstance(shape, g.Mesh):
         yield from _mesh_faults(shape)
+
+
+def _curve_faults(curve: g.Curve) -> Iterator[tuple[str, str]]:
+    count = curve.points.shape[1]
+    if count < 2:
+        yield "points", "needs at least two points"
+    if len(curve.section) not in (1, count):
+        yield "section", f"has {len(curve.section)} entries for {count} points"
+    if curve.up is not None and curve.up.shape[1] not in (1, count):
+        yield "up", f"has {curve.up.shape[1]} entries for {count} points"
 
 
 def _mesh_faults(mesh: g.Mesh) -> Iterator[tuple[str, str]]:

@@ -19,12 +19,12 @@ def of_section(beam: Any, name: str) -> Any:
         return _torsional_inertia(beam)
     if (section := _general(beam)) is not None:
         return _equivalent(beam, section, name)
-    if (root := _at(beam, 0.0)) is not None and name not in ("E", "rho"):
+    if (root := given_at(beam, 0.0)) is not None and name not in ("E", "rho"):
         return getattr(root, "J_z" if name == "J" else name)
     return {"J_y": lambda: beam.J, "J_t": lambda: beam.J + beam.J_y}.get(name, lambda: None)()
 
 
-def _at(beam: Any, x: float) -> Any:
+def given_at(beam: Any, x: float) -> Any:
     """Return the given section at x / length, None without one.
 
     Raises
@@ -44,7 +44,7 @@ def _at(beam: Any, x: float) -> Any:
 
 def _general(beam: Any) -> Section | None:
     """Return the Section at the root, None for other sections."""
-    root = _at(beam, 0.0)
+    root = given_at(beam, 0.0)
     return root.with_units() if isinstance(root, Section) else None
 
 
@@ -72,7 +72,7 @@ def _torsional_inertia(beam: Any) -> Any:
 
 def section_at(beam: Any, x: float) -> Section:
     """Return the section of a beam at x / length, with expressions."""
-    found = _at(beam, x)
+    found = given_at(beam, x)
     if callable(beam.section) or isinstance(found, Section):
         return found.section(beam.E, beam.G, beam.rho).with_units()
     E, G, rho = beam.E, beam.G, beam.rho

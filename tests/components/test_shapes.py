@@ -77,8 +77,8 @@ def entries(shape: Any) -> Iterator[tuple[str, Any]]:
             yield field.name, value
 
 
-SIZES = {"r": (3,), "T": (3, 3), "up": (3,), "center": (3,), "axes": (3, 3), "axis": (3,), "at": (3,), "vector": (3,)}
-NAMED = ("bending moment", "axial force", "deflection")
+SIZES = {"r": (3,), "T": (3, 3), "center": (3,), "axes": (3, 3), "axis": (3,), "at": (3,), "vector": (3,)}
+NAMED = ("up", "bending moment", "bending moment y", "torque", "axial force", "deflection", "deflection z")
 SIZES |= {"section": (2,), "diameter": (), "length": ()}
 
 

@@ -9,22 +9,27 @@ class Curve {
     this.nodes = shape.points.length;
     // About a hundred rings for each beam, whatever the number of its elements.
     this.parts = clamp(Math.ceil(96 / (this.nodes - 1)), 4, 32);
-    this.tube = new Tube((this.nodes - 1) * this.parts + 1, 20, context.material(shape, { vertexColors: true }));
+    this.tube = new Tube((this.nodes - 1) * this.parts + 1, PROFILES[shape.profile], context.material(shape, { vertexColors: true }));
     this.object = this.tube.object;
     this.plain = linear(context.colour(shape)).toArray();
     context.group.add(this.object);
   }
 
-  /** Positions and tangents of the nodes with scaled deformation; the parameter grows by 1 along each element. */
+  /**
+   * Positions and tangents of the nodes with scaled deformation; the parameter grows by 1 along each element. The directions
+   * `up` turn with the tangents.
+   */
   centreline() {
     const points = this.shape.points.map((ks) => this.columns.vector(ks));
     const tangents = this.shape.tangents?.map((ks) => this.columns.vector(ks)) ?? slopes(points);
+    const up = this.shape.up?.map((ks) => this.columns.vector(ks));
     const scale = this.stage.deformation;
-    if (scale === 1 || !this.shape.rest) return { points, tangents };
+    if (scale === 1 || !this.shape.rest) return { points, tangents, up };
     const rest = this.rest(points);
     const drawn = points.map((p, i) => lerp(rest[i], p, scale));
     const straight = slopes(rest);
-    return { points: drawn, tangents: tangents.map((tangent, i) => lerp(straight[i], tangent, scale)) };
+    const turned = tangents.map((tangent, i) => lerp(straight[i], tangent, scale));
+    return { points: drawn, tangents: turned, up: up?.map((v, i) => carry(v, tangents[i], turned[i])) };
   }
 
   /** Undeformed positions of the nodes: on the chord, or fixed to the frame of the beam. */
@@ -35,24 +40,25 @@ class Curve {
   }
 
   update() {
-    const { points, tangents } = this.centreline();
-    const places = [];
-    const directions = [];
-    const origin = this.stage.origin;
+    const { points, tangents, up } = this.centreline();
+    const rings = [];
+    const { origin, minRadius } = this.stage;
+    const halves = this.shape.section.map((pair) => pair.map((half) => Math.max(half, minRadius)));
     for (let e = 0; e + 1 < this.nodes; e++) {
       const ends = [minus(points[e], origin), tangents[e], minus(points[e + 1], origin), tangents[e + 1]];
       const steps = e + 2 === this.nodes ? this.parts + 1 : this.parts;
       for (let k = 0; k < steps; k++) {
         const s = k / this.parts;
-        places.push(hermite(ends, [1 + s * s * (2 * s - 3), s * (1 - s) ** 2, s * s * (3 - 2 * s), s * s * (s - 1)]));
         const slope = 6 * s * (s - 1);
-        directions.push(hermite(ends, [slope, (1 - s) * (1 - 3 * s), -slope, s * (3 * s - 2)]));
+        rings.push({
+          point: hermite(ends, [1 + s * s * (2 * s - 3), s * (1 - s) ** 2, s * s * (3 - 2 * s), s * s * (s - 1)]),
+          direction: hermite(ends, [slope, (1 - s) * (1 - 3 * s), -slope, s * (3 * s - 2)]),
+          half: between(halves, e, s),
+          up: up && (up.length > 1 || !rings.length) ? between(up, e, s) : undefined,
+        });
       }
     }
-    const least = this.stage.minRadius;
-    const [a, b] = this.shape.section.map((half) => Math.max(half, least));
-    const up = this.shape.up && this.columns.vector(this.shape.up);
-    this.tube.place(places, directions, up, a, b);
+    this.tube.place(rings);
     this.paint();
   }
 

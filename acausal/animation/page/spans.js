@@ -10,7 +10,7 @@ class Span {
     this.stage = context.stage;
     this.shape = shape;
     if (shape.style === "coil") {
-      this.tube = new Tube(TURNS * PER_TURN + 1 + 8, 8, context.material(shape));
+      this.tube = new Tube(TURNS * PER_TURN + 1 + 8, circle(8), context.material(shape));
       this.object = this.tube.object;
     } else {
       this.object = new THREE.Mesh(unitGeometry(shape.style === "rail" ? "box" : "cylinder"), context.material(shape));
@@ -47,8 +47,11 @@ class Span {
       const out = plus(times(radius * Math.cos(angle), first), times(radius * Math.sin(angle), second));
       return plus(lerp(a, b, s), out);
     });
-    const directions = points.map((_, i) => minus(points[Math.min(i + 1, count - 1)], points[Math.max(i - 1, 0)]));
-    this.tube.place(points, directions, null, wire, wire);
+    const rings = points.map((point, i) => {
+      const direction = minus(points[Math.min(i + 1, count - 1)], points[Math.max(i - 1, 0)]);
+      return { point, direction, half: [wire, wire] };
+    });
+    this.tube.place(rings);
   }
 
   /** Position of ring i along the coil: four rings for each straight end, the others for the winding. */

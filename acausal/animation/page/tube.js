@@ -1,10 +1,31 @@
-// Tube along a moving line: elliptic rings normal to the line, closed at both ends.
+// Tube along a moving line: rings normal to the line, closed at both ends.
+
+// A profile holds the corners of a ring with half-axes 1, each with the normal of the surface there.
+
+function circle(count) {
+  return Array.from({ length: count }, (_, k) => {
+    const angle = (2 * Math.PI * k) / count;
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    return [c, s, c, s];
+  });
+}
+
+const PROFILES = {
+  ellipse: circle(20),
+  // Each edge twice, once for either side.
+  // prettier-ignore
+  rectangle: [
+    [1, -1, 1, 0], [1, 1, 1, 0], [1, 1, 0, 1], [-1, 1, 0, 1],
+    [-1, 1, -1, 0], [-1, -1, -1, 0], [-1, -1, 0, -1], [1, -1, 0, -1],
+  ],
+};
 
 class Tube {
-  /** A tube of `count` rings with `around` corners each. */
-  constructor(count, around, material) {
+  /** A tube of `count` rings. */
+  constructor(count, profile, material) {
     this.count = count;
-    this.around = around;
+    this.profile = profile;
+    const around = (this.around = profile.length);
     const vertices = (count + 2) * around + 2; // the flat ends repeat the first and last ring and add a centre each
     this.geometry = new THREE.BufferGeometry();
     for (const name of ["position", "normal", "color"]) {
@@ -13,10 +34,6 @@ class Tube {
       this[name] = attribute.array;
     }
     this.geometry.setIndex(this.triangles());
-    this.circle = Array.from({ length: around }, (_, k) => {
-      const angle = (2 * Math.PI * k) / around;
-      return [Math.cos(angle), Math.sin(angle)];
-    });
     this.object = new THREE.Mesh(this.geometry, material);
     this.object.frustumCulled = false;
   }
@@ -41,27 +58,28 @@ class Tube {
   }
 
   /**
-   * Place the rings at points (relative to the origin of the scene), normal to the directions.
-   *
-   * `a` and `b` are the half-axes; b points along `up` at the first ring and continues without twist.
+   * Place rings, each with its point (relative to the origin of the scene), the direction of the line, its half-axes, and
+   * `up`, the direction of the second one: where it is undefined, the one of the ring before continues without twist.
    */
-  place(points, directions, up, a, b) {
+  place(rings) {
     const { count, around, position, normal } = this;
     let second = null;
     for (let i = 0; i < count; i++) {
-      const along = unit(directions[i], second ? cross(second, [0, 0, 1]) : [1, 0, 0]);
-      second = perpendicular(along, second ?? up);
+      const { point, direction, up, half } = rings[i];
+      const [a, b] = half;
+      const along = unit(direction, second ? cross(second, [0, 0, 1]) : [1, 0, 0]);
+      second = perpendicular(along, up ?? second);
       const first = cross(second, along);
       for (let k = 0; k < around; k++) {
-        const [c, s] = this.circle[k];
+        const [c, s, m, n] = this.profile[k];
         const place = 3 * (i * around + k);
-        const size = Math.hypot(c * b, s * a) || 1;
+        const size = Math.hypot(b * m, a * n) || 1;
         for (let j = 0; j < 3; j++) {
-          position[place + j] = points[i][j] + a * c * first[j] + b * s * second[j];
-          normal[place + j] = (b * c * first[j] + a * s * second[j]) / size;
+          position[place + j] = point[j] + a * c * first[j] + b * s * second[j];
+          normal[place + j] = (b * m * first[j] + a * n * second[j]) / size;
         }
       }
-      if (i === 0 || i === count - 1) this.close(i, points[i], i === 0 ? times(-1, along) : along);
+      if (i === 0 || i === count - 1) this.close(i, point, i === 0 ? times(-1, along) : along);
     }
     this.geometry.attributes.position.needsUpdate = true;
     this.geometry.attributes.normal.needsUpdate = true;

@@ -7,6 +7,8 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const length = (a) => Math.hypot(a[0], a[1], a[2]);
 const lerp = (a, b, s) => [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])];
+/** Entry of a list at s between e and e + 1; the only one of a list of one. */
+const between = (list, e, s) => (list.length === 1 ? list[0] : list[e].map((x, j) => x + s * (list[e + 1][j] - x)));
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 function unit(a, otherwise = [1, 0, 0]) {
@@ -23,6 +25,14 @@ function perpendicular(axis, wanted) {
   const least = axis.map(Math.abs).indexOf(Math.min(...axis.map(Math.abs)));
   const other = [0, 1, 2].map((k) => (k === least ? 1 : 0));
   return unit(minus(other, times(dot(other, axis), axis)));
+}
+
+/** Turn a vector as the shortest rotation from one direction to another does. */
+function carry(v, from, to) {
+  const [a, b] = [unit(from), unit(to)];
+  const axis = cross(a, b);
+  const turned = cross(axis, v);
+  return plus(plus(v, turned), times(1 / Math.max(1 + dot(a, b), 1e-9), cross(axis, turned)));
 }
 
 /** Rotate a vector by a quaternion (w, u): v + 2 u x (u x v + w v). */

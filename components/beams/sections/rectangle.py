@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
+from acausal import geometry
 from components.beams.sections.solid import SolidSection
 
 # The sum of 1 / n^5 over odd n, 31/32 zeta(5).
@@ -29,6 +30,12 @@ class Rectangle(SolidSection):
     width: Any
     height: Any
     angle: Any = 0.0
+    profile: ClassVar[geometry.Profile] = "rectangle"
+
+    @property
+    def half_axes(self) -> tuple[Any, Any]:
+        """Half-axes of the drawn profile along y and z in m."""
+        return self.width / 2, self.height / 2
 
     @property
     def A(self) -> Any:

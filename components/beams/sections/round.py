@@ -15,6 +15,11 @@ class RoundSection(SolidSection):
     d_i: Any
 
     @property
+    def half_axes(self) -> tuple[Any, Any]:
+        """Half-axes of the drawn profile along y and z in m."""
+        return self.d_o / 2, self.d_o / 2
+
+    @property
     def A(self) -> Any:
         """Area in m2."""
         return pi / 4 * (self.d_o**2 - self.d_i**2)

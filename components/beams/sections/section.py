@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, ClassVar
 
-from acausal import DeclarationError, as_expr, cos, quantity, sin
+from acausal import DeclarationError, as_expr, cos, geometry, quantity, sin, sqrt
 from components.beams.pair import Pair, Symmetric
 
 UNITS = {
@@ -71,6 +71,12 @@ class Section:
     y_s: Any = 0.0
     z_s: Any = 0.0
     angle: Any = 0.0
+    profile: ClassVar[geometry.Profile] = "ellipse"
+
+    @property
+    def half_axes(self) -> tuple[Any, Any]:
+        """Half-axes of the drawn profile along y and z in m: of the ellipse with the radii of gyration of the stiffness."""
+        return 2 * sqrt(self.EJ_z / self.EA), 2 * sqrt(self.EJ_y / self.EA)
 
     def with_units(self) -> Section:
         """Return the section with expressions instead of numbers."""

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any
+from typing import Any, ClassVar
 
+import numpy as np
+
+from acausal import geometry
 from components.beams.sections.section import Section
 
 
@@ -12,6 +15,7 @@ class SolidSection(ABC):
     """A section of one material, with its centroid and its shear centre on the axis of the beam."""
 
     angle: Any = 0.0
+    profile: ClassVar[geometry.Profile] = "ellipse"
 
     @property
     @abstractmethod
@@ -36,6 +40,11 @@ class SolidSection(ABC):
     @abstractmethod
     def shear_factor(self, nu: Any) -> Any:
         """Shear factor of Timoshenko's beam at Poisson's ratio nu."""
+
+    @property
+    def half_axes(self) -> tuple[Any, Any]:
+        """Half-axes of the drawn profile along y and z in m: of the ellipse with the same radii of gyration."""
+        return 2 * np.sqrt(self.J_z / self.A), 2 * np.sqrt(self.J_y / self.A)
 
     def section(self, E: Any, G: Any, rho: Any) -> Section:
         """Return the section of a material with the moduli E and G in Pa and the density rho in kg/m3."""

@@ -161,8 +161,9 @@ def every_kind(scale: float = 1.0, away: ArrayLike = (0, 0, 0), frames: int = 10
             "kind": "curve",
             "points": [columns.add(nodes[:, k]) for k in range(4)],
             "tangents": [columns.add(tangents[:, k]) for k in range(4)],
-            "section": [0.02 * scale, 0.04 * scale],
-            "up": columns.add(T1[:, :, 1]),
+            "section": [[0.02 * scale, 0.04 * scale]],
+            "up": [columns.add(T1[:, :, 1])],
+            "profile": "ellipse",
             "rest": {"chord": True, "fractions": s.tolist()} if chord else pose,
             "values": [{"name": "bending moment", "unit": "N.m", "columns": columns.add(moment)}],
         }

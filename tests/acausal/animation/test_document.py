@@ -199,7 +199,8 @@ def test_values_along_beams_are_written_if_asked_for(machine: ac.Result) -> None
     assert both["start"] == "colour=bending+moment"
     assert sum(len(s.get("values", ())) for run in both["runs"] for s in run["shapes"]) == 2
     with pytest.raises(
-        ac.DeclarationError, match=r'has values "stress".*"axial force", "bending moment", "deflection"'
+        ac.DeclarationError,
+        match=r'has values "stress".*"axial force", "bending moment", "bending moment y", "deflection"',
     ):
         made(result, ("stress",))
 
@@ -265,7 +266,7 @@ def test_open_sizes_suit_the_scene() -> None:
         assert run["size"] == pytest.approx(3 * scale)
         assert 0 < rod["diameter"] < axle["diameter"] < axle["length"] < 0.3 * scale
         assert axle["axis"] == [0, 0, 1]
-        assert bar["section"] == pytest.approx([0.1 * scale] * 2)
+        assert bar["section"] == [pytest.approx([0.1 * scale] * 2)]
         tangents = columns(run)[np.array(smooth["tangents"])][:, :, 0]
         assert tangents == pytest.approx(scale * np.array([[0.5, 0, 0], [1.5, 0, 0], [2.5, 0, 0]]), rel=1e-6)
         assert smooth["rest"] == {"chord": True, "fractions": pytest.approx([0, 1 / 3, 1])}
