@@ -10,7 +10,8 @@ import numpy as np
 
 from acausal.animation import geometry as g
 from acausal.animation.camera import Camera, horizontal
-from acausal.animation.scene import Scene, chord_fractions, corners, in_world
+from acausal.animation.scene import Scene, corners, in_world
+from acausal.animation.tube import PIECES, half_widths, sections
 
 PALETTE = ("#3b6fd1", "#e08a3c", "#2a9d78", "#d6556b", "#a05fc9", "#3aa7b5", "#a58b2d", "#7d6ee0")
 DARK, ROD, COIL = "#4a5260", "#8a93a3", "#b9772a"
@@ -18,7 +19,7 @@ ARROWS = {"force": "#d32f2f", "torque": "#8e24aa"}
 GRID = "#d9dee6"
 ARROW = 0.25  # length of the longest arrow, relative to the size of the scene
 LINES = 8  # grid spacings within the diagonal of the scene
-SIDES, PIECES, TURNS = 32, 10, 9  # corners of a circle, straight pieces of a cubic, turns of a coil
+SIDES, TURNS = 32, 9  # corners of a circle, turns of a coil
 
 
 @dataclass(frozen=True)
@@ -98,27 +99,28 @@ class Drawing:
                 ends = np.array([end - LINES / 2 * step * along, end + LINES / 2 * step * along])
                 yield from self.strip(ends, 0.002 * scene.size, rgb(GRID))
 
-    def strip(self, points: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
-        """Yield a line of constant width through points of the world; `colour` is (3,), or (n - 1, 3) along the line."""
+    def strip(self, points: np.ndarray, radius: Any, colour: np.ndarray) -> Pieces:
+        """Yield a line through points of the world: `radius` is half its width, or (n,); `colour` (3,), or (n - 1, 3)."""
         seen = self.view.project(points)
         steps = np.diff(seen, axis=0)
         length = np.linalg.norm(steps[:, :2], axis=1)
-        colours = np.broadcast_to(colour, (len(steps), 3))
-        for a, b, step, l, c in zip(seen[:-1], seen[1:], steps, length, colours, strict=True):
+        colours, radii = np.broadcast_to(colour, (len(steps), 3)), np.broadcast_to(radius, len(seen))
+        parts = zip(seen[:-1], seen[1:], radii[:-1], radii[1:], steps, length, colours, strict=True)
+        for a, b, r_a, r_b, step, l, c in parts:
             if l > 0:
-                across = radius * np.array([-step[1], step[0]]) / l
-                yield Polygon(
-                    np.array([a[:2] + across, b[:2] + across, b[:2] - across, a[:2] - across]), (a[2] + b[2]) / 2, c
-                )
+                across = np.array([-step[1], step[0]]) / l
+                sides = [a[:2] + r_a * across, b[:2] + r_b * across, b[:2] - r_b * across, a[:2] - r_a * across]
+                yield Polygon(np.array(sides), (a[2] + b[2]) / 2, c)
 
-    def tube(self, points: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
+    def tube(self, points: np.ndarray, radius: Any, colour: np.ndarray) -> Pieces:
         """Yield a strip with a lighter middle and round ends."""
+        radius = np.broadcast_to(radius, len(points))
         yield from (
-            self.disc(points[0], radius, colour.reshape(-1, 3)[0]),
-            self.disc(points[-1], radius, colour.reshape(-1, 3)[-1]),
+            self.disc(points[0], radius[0], colour.reshape(-1, 3)[0]),
+            self.disc(points[-1], radius[-1], colour.reshape(-1, 3)[-1]),
         )
         yield from self.strip(points, radius, colour)
-        nearer = points + radius * self.view.axes[2]
+        nearer = points + radius[:, None] * self.view.axes[2]
         yield from self.strip(nearer, radius / 2, 0.75 * colour + 0.25)
 
     def disc(self, center: np.ndarray, radius: float, colour: np.ndarray) -> Polygon:
@@ -205,27 +207,16 @@ class Drawing:
             yield Polygon(np.array([neck + head / 3 * across, tip[:2], neck - head / 3 * across]), near, colour)
 
     def curve(self, s: g.Curve, k: int, colour: np.ndarray) -> Pieces:
-        """Yield a tube along the cubics between the points."""
-        rest = self.undeformed(s, k)
-        points = rest + self.deformation * (s.points[k] - rest)
-        slope = np.gradient(rest, axis=0)
-        tangents = slope + self.deformation * (s.tangents[k] - slope)
-        x = np.linspace(0, 1, PIECES + 1)[:, None, None]
-        a, b = (2 * x - 3) * x * x + 1, (x - 2) * x * x + x
-        pieces = a * points[:-1] + (1 - a) * points[1:] + b * tangents[:-1] + (x - 1) * x * x * tangents[1:]
+        """Yield a tube along the cubics between the points, as wide as its sections look."""
+        points, half_axes = sections(s, k, self.deformation)
+        steps = np.gradient(self.view.project(points)[:, :2], axis=0)
+        length = np.linalg.norm(steps, axis=1)
+        across = np.stack([-steps[:, 1], steps[:, 0]], axis=1) / np.where(length > 0, length, 1)[:, None]
         values = next((v.entries[k] for v in s.values if v.name == self.by), None)
         if self.colours and values is not None:
-            middle = (x[1:, :, 0] + x[:-1, :, 0]) / 2
-            colour = self.colours((values[:-1] + middle * np.diff(values)).T.ravel())
-        axis = np.concatenate([pieces[:-1].transpose(1, 0, 2).reshape(-1, 3), points[-1:]])
-        yield from self.tube(axis, float(np.mean(s.section)), colour)
-
-    def undeformed(self, s: g.Curve, k: int) -> np.ndarray:
-        """Return the undeformed points of a curve, in the world."""
-        if s.rest is not None:
-            return _at(s.rest, s.rest_points, k)
-        first, last = s.points[k, 0], s.points[k, -1]
-        return first + np.array(chord_fractions(s))[:, None] * (last - first)
+            place = (np.arange(len(points) - 1) + 0.5) / PIECES
+            colour = self.colours(np.interp(place, np.arange(len(values)), values))
+        yield from self.tube(points, half_widths(s.profile, half_axes, across @ self.view.axes[:2]), colour)
 
     def mesh(self, s: g.Mesh, k: int, colour: np.ndarray) -> Pieces:
         """Yield the deformed triangles of a mesh."""
