@@ -194,6 +194,10 @@ def test_values_along_beams_are_written_if_asked_for(machine: ac.Result) -> None
     moment = next(value for value in curve["values"] if value["name"] == "bending moment")
     assert pytest.approx(result["beam.node_moment"][:, :, 2], rel=1e-6, abs=1e-6) == columns(run)[moment["columns"]].T
     assert columns(run)[np.array(curve["points"])].shape == (2, 3, 51)
+    # Values that are 0 everywhere are left out, unless they are asked for by name.
+    for asked, more in ((("all",), set()), (("all", "torque"), {"torque"})):
+        curve = next(s for s in made(result, asked)["shapes"] if s["kind"] == "curve")
+        assert {value["name"] for value in curve["values"]} - {"axial force"} == {"bending moment", "deflection"} | more
     # Of several runs, one may have no beams.
     both = document({"bar": run_of(result), "machine": run_of(machine)}, ["bending moment"])
     assert both["start"] == "colour=bending+moment"
@@ -245,6 +249,16 @@ STILL = geometry.Pose((0, 0, 0), np.eye(3))
         ),
         (3, r"shapes\(\) of model \(Own\) yields 3"),
         (geometry.Curve(((0, 0, 0), (1, 0, 0)), rest=STILL), "needs one entry of `rest_points`"),
+        (
+            geometry.Curve(((0, 0, 0), (1, 0, 0)), up=(0, 1)),
+            r"`up` of the Curve .* has shape \(2,\); it needs \(3,\) or \(n, 3\)",
+        ),
+        (
+            geometry.Curve(((0, 0, 0), (1, 0, 0)), section=[(1, 1)] * 3),
+            "`section` of the Curve .* has 3 entries for 2 points",
+        ),
+        (geometry.Curve(((0, 0, 0), (1, 0, 0)), up=np.eye(3)), "`up` of the Curve .* has 3 entries for 2 points"),
+        (geometry.Curve(((0, 0, 0), (1, 0, 0)), profile="round"), "`profile` of the Curve .* is 'round'"),  # type: ignore
     ],
 )
 def test_shapes_that_are_none_are_refused(shape: Any, said: str) -> None:

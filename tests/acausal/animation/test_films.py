@@ -15,6 +15,7 @@ from acausal import Model, Scalar, geometry, output
 from acausal.animation.camera import Camera, camera
 from acausal.animation.document import scenes
 from acausal.animation.drawing import Drawing, Polygon
+from acausal.animation.tube import PIECES, sections
 from acausal.result.animated import run_of
 from acausal.result.films import _speed
 
@@ -117,6 +118,39 @@ def test_deformations_are_exaggerated_from_what_is_undeformed(rest: geometry.Pos
         tops.append(points[:, 1].max())
     assert np.array(tops) / tops[0] == pytest.approx([1, 10, 1000], rel=1e-6)
     assert tops[0] == pytest.approx(0.1 * (0.25 if rest is None else 4 / 27), rel=0.02)
+
+
+@pytest.mark.parametrize("profile", ["ellipse", "rectangle"])
+def test_curves_are_as_wide_as_their_sections_look(profile: Any) -> None:
+    """A tapered strip that is turned about its axis: half widths of the section a, b at each point, seen along z."""
+    x, turn = np.linspace(0, 2, 5), np.linspace(0, 1.2, 5)
+    points = np.stack([x, 0 * x, 0 * x], axis=1)
+    a, b = 0.1 + 0.1 * x, 0.02 + 0 * x
+    up = np.stack([0 * x, np.sin(turn), np.cos(turn)], axis=1)
+
+    class Strip(Orbit):
+        def shapes(self):
+            yield geometry.Curve(points, section=np.stack([a, b], axis=1), up=up, profile=profile)
+
+    (scene,) = scenes({"strip": run_of(ac.simulate(Strip(), stop_time=1, intervals=2))}).values()
+    parts = np.abs([a * np.cos(turn), b * np.sin(turn)])
+    expected = parts.sum(axis=0) if profile == "rectangle" else np.hypot(*parts)
+    corners = np.concatenate([p.corners for p in Drawing(scene, FRONT).frame(1) if len(p.corners) == 4])
+    widths = [corners[np.abs(corners[:, 0] - at) < 1e-9][:, 1].max() for at in x]
+    assert widths == pytest.approx(expected, rel=1e-9)
+
+
+def test_up_continues_without_twist_from_the_first_point() -> None:
+    """Around a quarter of a circle, in its plane and normal to it."""
+    angle = np.linspace(0, np.pi / 2, 9)
+    points = np.stack([np.sin(angle), 1 - np.cos(angle), 0 * angle], axis=1)
+    slopes = np.pi / 16 * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    inwards = np.stack([-np.sin(angle), np.cos(angle), 0 * angle], axis=1)
+    for up, expected in (((0, 1, 0), inwards), ((0, 0, 1), np.broadcast_to((0, 0, 1), (9, 3)))):
+        curve = geometry.Curve(points[None], slopes[None], section=np.array([[0.1, 0.2]]), up=np.array([[up]]))
+        _, half_axes = sections(curve, 0, 1.0)
+        np.testing.assert_allclose(half_axes[::PIECES, 1], 0.2 * expected, atol=1e-9)
+        np.testing.assert_allclose(np.linalg.norm(half_axes[:, 0], axis=1), 0.1, rtol=1e-9)
 
 
 def test_nearer_things_are_drawn_later(orbit: ac.Result) -> None:

@@ -196,3 +196,38 @@ def test_pose_is_the_matrix_of_the_object(show: Show) -> None:
     turn = matrix[:3, :3] / 0.15
     assert turn @ turn.T == pytest.approx(np.eye(3), abs=1e-6)
     assert np.linalg.det(turn) == pytest.approx(1, abs=1e-6)
+
+
+@pytest.mark.parametrize(("profile", "corners"), [("ellipse", ([1, 0], [0, 1])), ("rectangle", ([1, -1], [1, 1]))])
+def test_sections_are_drawn_with_their_half_axes_and_directions(
+    show: Show, profile: str, corners: tuple[list[float], ...]
+) -> None:
+    """Two corners of the ring at each point of a straight strip, tapered and turned about its axis."""
+    a, b, turn = np.array([0.5, 0.4, 0.2]), np.array([0.1, 0.2, 0.1]), np.array([0.0, 0.5, 1.2])
+    columns = Columns(np.array([0.0, 1.0]))
+    curve = {
+        "kind": "curve",
+        "part": 0,
+        "color": None,
+        "points": [columns.add([float(k), 0.0, 0.0]) for k in range(3)],
+        "tangents": [columns.add([1.0, 0.0, 0.0])] * 3,
+        "section": np.stack([a, b], axis=1).tolist(),
+        "up": [columns.add([0.0, float(np.sin(angle)), float(np.cos(angle))]) for angle in turn],
+        "profile": profile,
+        "rest": {"chord": True, "fractions": [0, 0.5, 1]},
+        "values": [],
+    }
+    ball = one_ball(np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    run = {**ball, **columns.document(), "poses": [], "plots": [], "shapes": [curve]}
+    browser = show(document(columns.number(run)))
+    item = "acausal.viewer.runs[0].items[0]"
+    first = np.stack([np.cos(turn), -np.sin(turn)], axis=1)  # up x tangent
+    second = np.stack([np.sin(turn), np.cos(turn)], axis=1)
+    at = 5 if profile == "ellipse" else 1
+    for corner, (c, s) in zip((0, at), corners, strict=True):
+        ring = (
+            f"(k) => {{ const {{ parts, tube }} = {item}; const i = 3 * (k * parts * tube.around + {corner});"
+            " return [1, 2].map((j) => tube.position[i + j] + acausal.viewer.stage.origin[j]); }"
+        )
+        seen = np.array(browser.run(f"acausal.seek(0), [0, 1, 2].map({ring})"))
+        assert seen == pytest.approx((c * a)[:, None] * first + (s * b)[:, None] * second, abs=1e-6)
