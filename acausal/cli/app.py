@@ -127,7 +127,10 @@ def simulate(
     ] = None,
     values: Annotated[
         list[str] | None,
-        typer.Option(help="Colours of beams in the animation: 'bending moment', 'axial force', all.", metavar="NAME"),
+        typer.Option(
+            help="Colours of beams in the animation, such as 'bending moment', 'torque', 'axial force'; all.",
+            metavar="NAME",
+        ),
     ] = None,
     deformation: Annotated[
         float, typer.Option(help="Scale of deformations in the animation, 1 to 1000.", metavar="X", show_default=False)

@@ -79,7 +79,7 @@ def entries(shape: Any) -> Iterator[tuple[str, Any]]:
 
 SIZES = {"r": (3,), "T": (3, 3), "center": (3,), "axes": (3, 3), "axis": (3,), "at": (3,), "vector": (3,)}
 NAMED = ("up", "bending moment", "bending moment y", "torque", "axial force", "deflection", "deflection z")
-SIZES |= {"section": (2,), "diameter": (), "length": ()}
+SIZES |= {"diameter": (), "length": ()}
 
 
 @pytest.mark.filterwarnings("ignore:.*linear frames:acausal.AcausalWarning")
@@ -111,6 +111,7 @@ def test_shapes_are_kinds_of_geometry(name):
                 *(value for name, value in entries(shape) if name in NAMED),
             ]
             assert all(value.shape[0] == n for value in several)
+            assert np.shape(shape.section) in ((2,), (n, 2))
 
 
 # Parts in one dimension, sensors, and what joins drive trains or guides nothing.
