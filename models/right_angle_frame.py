@@ -6,7 +6,7 @@ import acausal as ac
 from acausal import Model, Scalar, chain, connect, output, part, piecewise, structural, time
 from components import FixedRotation, Section, SubstructuredBeam, World, WorldForce
 
-LEG = Section(EA=1e6, EJ_y=1e3, EJ_z=1e3, GJ_t=1e3, mass=1.0, I_y=10.0, I_z=10.0)
+LEG = Section(EA=1e6, EJ_y=1e3, EJ_z=1e3, GJ_t=1e3, mass=1.0, I_y=10.0, I_z=10.0, kGA_y=1e6, kGA_z=1e6)
 
 
 class RightAngleFrame(Model):

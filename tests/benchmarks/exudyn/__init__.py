@@ -1,1 +1,1 @@
-"""The scenes spin-up, pendulum and slider-crank compared with Exudyn, which is optional: pip install ".[benchmark]"."""
+"""Machines in a plane and in space compared with Exudyn, which is optional: pip install ".[benchmark]"."""

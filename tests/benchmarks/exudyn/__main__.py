@@ -2,7 +2,8 @@
 
     OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.exudyn [--markdown] [--plot FILE.png] [SCENE]...
 
-One run on one machine: spin-up, pendulum and slider-crank at several tolerances, steps and formulations. Errors are the
+One run on one machine: spin-up, pendulum, slider-crank and right-angle frame at several tolerances, steps and formulations;
+and the static bend of 45 degrees. Errors are the
 largest over 401 points against Exudyn with many elements and short steps, as a fraction of the range; how far our own
 converged solution is from it is printed too. Times are CPU times, best of several: of SolveDynamic, and of simulate() with
 a compiled model, which counts initialisation and choice of the order; "again" where the run before had the same parameters,
@@ -13,17 +14,18 @@ from __future__ import annotations
 
 import argparse
 
+from tests.benchmarks.exudyn import bend
 from tests.benchmarks.exudyn.cable import has_exudyn
 from tests.benchmarks.exudyn.compare import ours, reference, theirs
 from tests.benchmarks.exudyn.picture import draw
 from tests.benchmarks.exudyn.scenes import SCENES
-from tests.benchmarks.exudyn.tables import Compared, show
+from tests.benchmarks.exudyn.tables import Compared, print_tables, show
 
 REPEATS = 6
 
 
 def main(names: list[str], path: str | None, markdown: bool) -> None:
-    """Compare the scenes whose name holds one of the names; all, if there are none."""
+    """Compare the scenes, and the bend, whose name holds one of the names; all, if there are none."""
     if not has_exudyn():
         raise SystemExit('Exudyn is not installed, so there is nothing to compare with: pip install ".[benchmark]"')
     compared = []
@@ -32,7 +34,10 @@ def main(names: list[str], path: str | None, markdown: bool) -> None:
         points = [p for curve in scene.curves for p in ours(scene, curve, exact.outputs, REPEATS)]
         compared.append(Compared(scene, exact.apart, points, theirs(scene, exact.outputs, REPEATS)))
         show(compared[-1], markdown)
-    if path:
+    if not names or any(name in bend.NAME for name in names):
+        title = f"{bend.NAME}: distance of the tip from that of the exact rod in m"
+        print_tables(title, [(bend.COLUMNS, bend.bend_rows())], markdown)
+    if path and compared:
         draw(compared, path)
 
 

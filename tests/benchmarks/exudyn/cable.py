@@ -1,8 +1,8 @@
 """Planar cable elements of Exudyn (absolute nodal coordinates, geometrically exact), and its integration in time.
 
-Index-3 generalised-alpha with fixed steps. What was tried to make it fast: dense and sparse linear solvers, spectral
-radii, full and modified Newton, tolerances, and the three rules of quadrature; the best of each is the default or stands in
-the scene.
+Index-3 generalised-alpha with fixed steps; `rod` has the elements in space. What was tried to make it fast: dense and
+sparse linear solvers, spectral radii, full and modified Newton, tolerances, and the three rules of quadrature; the best of
+each is the default or stands in the scene.
 """
 
 from __future__ import annotations
@@ -31,10 +31,16 @@ class Setting:
         Spectral radius: 1 keeps all vibrations, 0 damps those at the step's frequency at once.
     modified : bool
         Keep the Jacobian as long as the iterations contract.
-    absolute : float
-        Absolute tolerance of the Newton iteration; the default of 1e-10 is never reached by stiff beams.
+    absolute, relative : float
+        Tolerances of the Newton iteration; the default of 1e-10 is never reached by stiff beams.
     quadrature : int
         2 is the cheapest rule and has the best axial strain, 0 the full one.
+    each_step : bool
+        Evaluate the Jacobian anew at each step, if it is kept at all.
+    sparse : bool
+        Sparse linear solver instead of the dense one.
+    elements : int
+        Elements of a leg, in scenes where they depend on the setting.
     """
 
     step: float
@@ -42,6 +48,15 @@ class Setting:
     modified: bool = False
     absolute: float = 1e-6
     quadrature: int = 2
+    relative: float = 1e-5
+    each_step: bool = False
+    sparse: bool = False
+    elements: int = 0
+
+    @property
+    def family(self) -> str:
+        """What all steps of a curve have in common."""
+        return f"{self.elements} elements" if self.elements else f"radius {self.radius:g}"
 
 
 @dataclass(frozen=True)
@@ -64,9 +79,10 @@ class Machine:
     system : MainSystem
         Of Exudyn.
     nodes : dict of str to int
-        Nodes whose position and slope are recorded.
+        Nodes whose coordinates are recorded.
     outputs : callable
-        Outputs of the scene from time and (x, y, dx/ds, dy/ds) of each recorded node, of shape (times, 4).
+        Outputs of the scene from time and coordinates of each recorded node: (x, y, dx/ds, dy/ds) of cables, shape (times, 4),
+        place and rotation vector of rods, shape (times, 6).
     stop : float
         End in s.
     breaks : tuple of float
@@ -124,13 +140,16 @@ def _settings(start: float, stop: float, period: float, how: Setting) -> Any:
     integration.startTime, integration.endTime = start, stop
     integration.numberOfSteps = round((stop - start) / how.step)
     integration.generalizedAlpha.spectralRadius = how.radius
-    integration.newton.relativeTolerance, integration.newton.absoluteTolerance = 1e-5, how.absolute
+    integration.newton.relativeTolerance, integration.newton.absoluteTolerance = how.relative, how.absolute
     integration.newton.useModifiedNewton = how.modified
+    integration.newton.modifiedNewtonJacUpdatePerStep = how.each_step
     integration.adaptiveStep = False
     integration.verboseMode = 0
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = max(period, how.step)
     settings.parallel.numberOfThreads = 1
+    if how.sparse:
+        settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
     return settings
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +24,11 @@ def draw(compared: list[Compared], path: str | Path) -> None:
             for name in dict.fromkeys(p.curve for p in c.ours):
                 own = [p for p in c.ours if p.curve == name]
                 axes.loglog([1e3 * p.seconds for p in own], [p.errors[output] for p in own], ".-", label=name)
-            for marker, radius in zip(
-                "sd^", dict.fromkeys(p.setting.rpartition(", ")[2] for p in c.theirs), strict=False
-            ):
-                their = [p for p in c.theirs if p.setting.endswith(radius)]
+            families = dict.fromkeys(p.setting.rpartition(", ")[2] for p in c.theirs)
+            for marker, family in zip(cycle("sd^vo<>px*"), families):
+                their = [p for p in c.theirs if p.setting.endswith(f", {family}")]
                 times, errors = [1e3 * p.seconds for p in their], [p.errors[output] for p in their]
-                axes.loglog(times, errors, f"k{marker}--", label=f"{EXUDYN}, {radius}", markersize=4)
+                axes.loglog(times, errors, f"k{marker}--", label=f"{EXUDYN}, {family}", markersize=4)
             axes.axhline(c.apart[output], color="0.6", linestyle=":", label="references apart")
             axes.set(title=f"{c.scene.name}: {output}", xlabel="solve time [ms]", ylabel="largest error / range")
             axes.xaxis.set_minor_formatter(NullFormatter())

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from models import FlexiblePendulum, SliderCrank, SpinUp
-from tests.benchmarks.exudyn import pendulum, slider_crank, spin_up
-from tests.benchmarks.exudyn.cable import Machine, Setting
+from acausal import Result
+from models import FlexiblePendulum, RightAngleFrame, SliderCrank, SpinUp
+from tests.benchmarks.exudyn import pendulum, right_angle_frame, slider_crank, spin_up
+from tests.benchmarks.exudyn.cable import Machine, Outputs, Setting
 
 INTERVALS = 400
 STIFFENED = {"geometric_stiffness": True}
@@ -64,6 +65,8 @@ class Scene:
         Our own reference: many volumes, the first tolerance.
     goal : float
         How many times less solve time we want at equal error.
+    paths : dict of str to str
+        Where our results hold outputs that have other names there.
     """
 
     name: str
@@ -75,6 +78,11 @@ class Scene:
     exact: tuple[Callable[[Setting], Machine], Setting]
     fine: Curve
     goal: float
+    paths: dict[str, str] = field(default_factory=dict)
+
+    def of(self, result: Result) -> Outputs:
+        """Outputs of one of our results."""
+        return {name: result[self.paths.get(name, name)] for name in self.outputs}
 
 
 def _grid(steps: tuple[float, ...], radii: tuple[float, ...], modified: bool) -> tuple[Setting, ...]:
@@ -183,5 +191,34 @@ def _slider_crank() -> Scene:
     )
 
 
+def _right_angle_frame() -> Scene:
+    """Two legs in space; each program has as many elements as the error needs."""
+    tolerances = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5)
+    # Shear changes the motion of our frame by 5e-5 of the range.
+    stretchless = {"first.axial": "none", "second.axial": "none"}
+    grid = {5: (0.25, 0.125), 6: (0.2, 0.125), 7: (0.2, 0.125), 8: (0.125, 0.1), 10: (0.125, 0.1), 12: (0.1, 0.0625)}
+    grid |= {16: (0.0625, 0.05), 20: (0.0625, 0.05), 24: (0.0625, 0.05, 0.04), 32: (0.05, 0.04)}
+    newton = {"modified": True, "each_step": True, "sparse": True, "absolute": 1e-4, "relative": 1e-4}
+    fine = {"modified": True, "sparse": True, "elements": 160}
+    return Scene(
+        "right-angle frame",
+        RightAngleFrame,
+        ("elbow", "tip"),
+        (
+            *(Curve(f"{n} volumes a leg", {"volumes": n}, tolerances) for n in (4, 8)),
+            *(
+                Curve(f"{n} volumes a leg, no stretch, one-step", {"volumes": n}, tolerances, stretchless, "rosenbrock")
+                for n in (3, 4, 6, 8, 12)
+            ),
+        ),
+        right_angle_frame.build,
+        tuple(Setting(step, 0.9, elements=n, **newton) for n, steps in grid.items() for step in steps),
+        (right_angle_frame.build, Setting(6.25e-3, 0.95, **fine)),
+        Curve("24 volumes a leg", {"volumes": 24}, (1e-6,), {}, "rosenbrock"),
+        5.0,
+        {"elbow": "first.frame_b.r_0", "tip": "second.frame_b.r_0"},
+    )
+
+
 SLIDER_CRANK = _slider_crank()
-SCENES = (_spin_up(2.0, 5), _spin_up(4.0, 5), _spin_up(10.0, 10), _pendulum(), SLIDER_CRANK)
+SCENES = (_spin_up(2.0, 5), _spin_up(4.0, 5), _spin_up(10.0, 10), _pendulum(), SLIDER_CRANK, _right_angle_frame())

@@ -65,9 +65,14 @@ def show(compared: Compared, markdown: bool) -> None:
         "again",
         "ours",
     ]
+    print_tables(title, [(points, best_rows(compared)), (equal, equal_rows(compared))], markdown)
+
+
+def print_tables(title: str, tables: Iterable[tuple[list[str], Iterable[list[str]]]], markdown: bool) -> None:
+    """Print tables, each of its columns and rows, below a title."""
     console = Console(width=180)
     console.print(title + "\n", highlight=False, markup=False)
-    for columns, rows in ((points, list(best_rows(compared))), (equal, list(equal_rows(compared)))):
+    for columns, rows in tables:
         if markdown:
             lines = ["| " + " | ".join(row) + " |" for row in (columns, ["---"] * len(columns), *rows)]
             print("\n".join(lines) + "\n")

@@ -9,6 +9,9 @@ import numpy as np
 import acausal as ac
 from acausal import Model, Scalar, Vector3, chain, connect, input, part, parts, structural
 from components import FixedRotation, FlexibleBeam, SubstructuredBeam, World, WorldForce
+from tests.reference.rod import loaded_rod
+
+BEND = {"E": 1e7, "G": 5e6, "rho": 1e-3, "A": 1.0, "J": 1 / 12, "J_t": 0.1406}
 
 
 def beam_of(**kind: Any) -> FlexibleBeam | SubstructuredBeam:
@@ -53,3 +56,15 @@ class Arc(Model):
 
     def connections(self):
         yield chain(self.world, *(p for pair in zip(self.kink, self.bar, strict=True) for p in pair), self.load.frame_b)
+
+
+def bent_tip() -> np.ndarray:
+    """Tip of the exact rod on the arc, under 600 N."""
+    E, J, GJ = BEND["E"], BEND["J"], BEND["G"] * BEND["J_t"]
+    return loaded_rod(25 * np.pi, np.array([0, 0, 600.0]), (GJ, E * J, E * J), E * BEND["A"], curvature=0.01)[0]
+
+
+def bend_error(count: int, **kind: Any) -> float:
+    """Distance of the tip from that of the exact rod, under 600 N."""
+    result = ac.simulate(Arc(count=count, kind=BEND | kind), stop_time=1e-6, intervals=1)
+    return float(np.linalg.norm(result["load.frame_b.r_0"][0] - bent_tip()))

@@ -6,25 +6,13 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from tests.components.beams_in_space.scenes import Arc, Cantilever
+from tests.components.beams_in_space.scenes import Cantilever, bend_error, bent_tip
 from tests.reference.rod import loaded_rod
-
-BEND = {"E": 1e7, "G": 5e6, "rho": 1e-3, "A": 1.0, "J": 1 / 12, "J_t": 0.1406}
-
-
-def bend_error(count: int, **kind) -> float:
-    """Distance of the tip from that of the exact rod, under 600 N."""
-    result = ac.simulate(Arc(count=count, kind=BEND | kind), stop_time=1e-6, intervals=1)
-    EJ = BEND["E"] * BEND["J"]
-    exact, _ = loaded_rod(25 * np.pi, np.array([0, 0, 600.0]), (5e6 * 0.1406, EJ, EJ), 1e7, curvature=0.01)
-    return float(np.linalg.norm(result["load.frame_b.r_0"][0] - exact))
 
 
 def test_exact_rod_has_the_published_tip():
-    EJ = 1e7 / 12
     start = np.array([100 * np.sin(np.pi / 4), 100 * (1 - np.cos(np.pi / 4)), 0])
-    tip, _ = loaded_rod(25 * np.pi, np.array([0, 0, 600.0]), (5e6 * 0.1406, EJ, EJ), 1e7, curvature=0.01)
-    np.testing.assert_allclose(tip - start, (-23.8168, -13.7309, 53.6042), atol=2e-4)
+    np.testing.assert_allclose(bent_tip() - start, (-23.8168, -13.7309, 53.6042), atol=2e-4)
 
 
 @pytest.mark.parametrize(
