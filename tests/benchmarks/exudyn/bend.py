@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import pi
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +32,7 @@ def exudyn_tip(elements: int) -> np.ndarray:
     exu.config.printToConsole = False
     E, EJ, inertia = BEND["E"], BEND["E"] * BEND["J"], BEND["rho"] * BEND["J"]
     section = Section(E * BEND["A"], EJ, EJ, BEND["G"] * BEND["J_t"], BEND["rho"], inertia, inertia, SHEAR, SHEAR)
-    system = exu.SystemContainer().AddSystem()
+    system: Any = exu.SystemContainer().AddSystem()
     turned = np.linspace(0, ANGLE, elements + 1)
     places = RADIUS * np.column_stack([np.sin(turned), 1 - np.cos(turned), 0 * turned])
     nodes = rod(system, section, places, turned, RADIUS * ANGLE / elements, quaternions=True)

@@ -54,9 +54,11 @@ class Setting:
     elements: int = 0
 
     @property
-    def family(self) -> str:
-        """What all steps of a curve have in common."""
-        return f"{self.elements} elements" if self.elements else f"radius {self.radius:g}"
+    def label(self) -> str:
+        """Name for tables; what stands after its comma is common to the points of a curve."""
+        if self.elements:
+            return f"{self.elements} elements, step {self.step:g} s"
+        return f"{self.step:g} s, radius {self.radius:g}"
 
 
 @dataclass(frozen=True)

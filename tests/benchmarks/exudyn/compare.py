@@ -142,13 +142,12 @@ def theirs(scene: Scene, exact: Outputs, repeats: int) -> list[Point]:
         try:
             runs = [simulate(scene.build(how), how, INTERVALS) for _ in range(repeats)]
         except SolverError:
-            print(f"{scene.name}, {EXUDYN}, step {how.step:g} s, {how.family}: no convergence")
+            print(f"{scene.name}, {EXUDYN}, {how.label}: no convergence")
             continue
         best: Run = min(runs, key=lambda run: run.seconds)
         errors = errors_of(best.outputs, best.times, exact, scene.outputs)
         counts = best.steps, best.factorisations, best.iterations
-        setting = f"{how.step:g} s, {how.family}"
-        points.append(Point(EXUDYN, setting, best.seconds, best.seconds, errors, *counts, "generalised-alpha"))
+        points.append(Point(EXUDYN, how.label, best.seconds, best.seconds, errors, *counts, "generalised-alpha"))
     return points
 
 

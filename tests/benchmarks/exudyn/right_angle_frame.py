@@ -23,13 +23,13 @@ def build(how: Setting) -> Machine:
     import exudyn as exu
     from exudyn.itemInterface import Force, GenericJoint, MarkerNodeRigid
 
-    system = exu.SystemContainer().AddSystem()
+    system: Any = exu.SystemContainer().AddSystem()
     n = how.elements
     along, still = np.linspace(0, LENGTH, n + 1), np.zeros(n + 1)
     first = rod(system, LEG, np.column_stack([along, still, still]), still, LENGTH / n)
     second = rod(system, LEG, np.column_stack([still + LENGTH, along, still]), still + pi / 2, LENGTH / n)
     clamp(system, first[0])
-    back = exu.HT(rotation=np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]]), translation=[0, 0, 0])
+    back = [[0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]  # a quarter turn about z
     elbow = system.AddMarker(MarkerNodeRigid(nodeNumber=first[-1]))
     system.AddObject(
         GenericJoint(markerNumbers=[elbow, system.AddMarker(MarkerNodeRigid(nodeNumber=second[0], localHT=back))])
@@ -38,7 +38,8 @@ def build(how: Setting) -> Machine:
     def pulse(_system: Any, t: float, _load: Any) -> list[float]:
         return [0.0, 0.0, 50 * max(0.0, 1 - abs(t - 1))]
 
-    system.AddLoad(Force(markerNumber=elbow, loadVector=[0, 0, 0], loadVectorUserFunction=pulse))
+    given: Any = {"loadVectorUserFunction": pulse}
+    system.AddLoad(Force(markerNumber=elbow, **given))
 
     def outputs(_times: np.ndarray, rows: dict[str, np.ndarray]) -> Outputs:
         return {name: row[:, :3] for name, row in rows.items()}

@@ -52,7 +52,7 @@ def test_settings_at_which_newton_fails_are_told_and_left_out(capfd):
     fails, works = Setting(0.1, 0.8), Setting(0.1, 0.6)
     found = theirs(replace(scene, settings=(fails, works)), exact, repeats=1)
     assert [p.setting for p in found] == ["0.1 s, radius 0.6"]
-    assert "step 0.1 s, radius 0.8: no convergence" in capfd.readouterr().out
+    assert "0.1 s, radius 0.8: no convergence" in capfd.readouterr().out
 
 
 @with_exudyn
