@@ -163,7 +163,7 @@ def simulate(machine: Machine, how: Setting, intervals: int) -> Run:
     # a failure is told by the error that it raises
     exu.config.printToConsole = False
     system, period = machine.system, machine.stop / intervals
-    kind = exu.OutputVariableType.CoordinatesTotal
+    kind: Any = exu.OutputVariableType.CoordinatesTotal
     sensors = {
         name: system.AddSensor(SensorNode(nodeNumber=node, outputVariableType=kind, storeInternal=True))
         for name, node in machine.nodes.items()

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -79,7 +80,8 @@ def exudyn_reference(scene: Scene, folder: Path | None = None) -> Outputs:
     path = (folder or Path(tempfile.gettempdir())) / f"exudyn {scene.name.replace('/', ' per ')}.npz"
     if not path.exists():
         build, how = scene.exact
-        np.savez(path, **simulate(build(how), how, INTERVALS).outputs)
+        found: dict[str, Any] = simulate(build(how), how, INTERVALS).outputs
+        np.savez(path, **found)
     with np.load(path) as kept:
         return {name: kept[name] for name in kept.files}
 
@@ -120,9 +122,9 @@ def ours(scene: Scene, curve: Curve, exact: Outputs, repeats: int) -> list[Point
         result = runs[-1][0][0]
         stats = result.stats
         errors = errors_of(scene.of(result), result.time, exact, scene.outputs)
-        counts = (stats[key] for key in ("steps", "factorisations", "residual_evaluations"))
-        seconds = (min(seconds for _, seconds in one) for one in zip(*runs, strict=True))
-        points.append(Point(curve.name, f"{tolerance:g}", *seconds, errors, *counts, stats["method"]))
+        counts = stats["steps"], stats["factorisations"], stats["residual_evaluations"]
+        anew, again = (min(seconds for _, seconds in one) for one in zip(*runs, strict=True))
+        points.append(Point(curve.name, f"{tolerance:g}", anew, again, errors, *counts, stats["method"]))
     return points
 
 
