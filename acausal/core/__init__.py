@@ -6,7 +6,7 @@ from acausal.core.library import why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
 from acausal.core.reasons import Doubt, End
-from acausal.core.run import Back, Happened, Multistep, Rows, Run, RunState
+from acausal.core.run import Back, Happened, Multistep, Rows, Run, RunState, Unit
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.sundials import why_no_idas
 from acausal.core.tape import Tape, make_tape
@@ -26,6 +26,7 @@ __all__ = [
     "Square",
     "StoredModel",
     "Tape",
+    "Unit",
     "laws_of",
     "make_equations",
     "make_square",

@@ -132,17 +132,13 @@ class Happened:
     acts: np.ndarray
 
 
-class Run:
-    """Instance of a model in the core, used by one thread at a time.
+class Unit:
+    """A model file that the core has read; it does not change, and runs share it.
 
     Parameters
     ----------
     content : bytes
-        The model file.
-    sizes : (int, int, int, int, int)
-        Numbers of states, algebraic unknowns, constants of a segment, watched conditions and conditions of time alone.
-    room : int
-        Rows of a slice at most.
+        The file.
 
     Raises
     ------
@@ -150,14 +146,34 @@ class Run:
         If the file is not readable.
     """
 
-    def __init__(self, content: bytes, sizes: tuple[int, int, int, int, int], room: int) -> None:
-        self._library, self._sizes, self._unit, self._memory = loaded(), sizes, None, None
-        self.shares = False  # functions of other libraries with other runs, which then wait
-        why = c_int32()
-        self._unit = self._library.ac_unit_read(content, len(content), byref(why))
-        if not self._unit:
+    def __init__(self, content: bytes) -> None:
+        self.library, self.memory, why = loaded(), None, c_int32()
+        self.memory = self.library.ac_unit_read(content, len(content), byref(why))
+        if not self.memory:
             raise ValueError(f"the model file is not readable: reason {why.value}")
-        self._memory = self._library.ac_instance_make(self._unit)
+
+    def __del__(self) -> None:
+        if getattr(self, "memory", None):
+            self.library.ac_unit_free(self.memory)
+
+
+class Run:
+    """Instance of a model in the core, used by one thread at a time.
+
+    Parameters
+    ----------
+    unit : Unit
+        The model.
+    sizes : (int, int, int, int, int)
+        Numbers of states, algebraic unknowns, constants of a segment, watched conditions and conditions of time alone.
+    room : int
+        Rows of a slice at most.
+    """
+
+    def __init__(self, unit: Unit, sizes: tuple[int, int, int, int, int], room: int) -> None:
+        self._library, self._sizes, self._unit, self._memory = unit.library, sizes, unit, None
+        self.shares = False  # functions of other libraries with other runs, which then wait
+        self._memory = self._library.ac_instance_make(unit.memory)
         if not self._memory:
             raise MemoryError
         nx, nz, nc, _, _ = sizes
@@ -167,8 +183,6 @@ class Run:
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
             self._library.ac_instance_free(self._memory)
-        if getattr(self, "_unit", None):
-            self._library.ac_unit_free(self._unit)
 
     def calls(self, function: Callable[[int, float], int], arguments: np.ndarray, results: np.ndarray) -> None:
         """Take what calls functions at events, by the number of a call and the time; it returns whether that fails.

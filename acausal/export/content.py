@@ -131,7 +131,7 @@ class Content:
             at.time,
             *(at.x, at.z, self.given.values, self._constants.vector),
             size=self.nominal[:nx],
-            rate=are_rates(self.problem),
+            rate=are_rates(self.problem.compiled),
             names=self.compiled.states,
         )
 

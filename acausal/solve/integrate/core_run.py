@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.memo import memoized
+from acausal.compiler.memo import memoized, memoized_latest
 from acausal.compiler.runtime import INNER, NOTHING, VERSION, Runtime
-from acausal.core import Run, StoredModel
+from acausal.core import Run, Unit
 from acausal.core.model_file import floats, framed, ints
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
@@ -30,11 +30,16 @@ def _sections(compiled: CompiledModel, energies: bool, moves: bool) -> dict[str,
     """Sections that do not change from run to run."""
     runtime, guards, r = _runtime(compiled, energies, moves), compiled.guards, compiled.reduced
     instants = guards.scheduled.function(r.p, r.constants)
+    # A run begins where it is told: equal models, of any start and parameters, are read once.
+    places = 1 + compiled.nx + compiled.nz + r.p.numel() + r.constants.numel()
     counts = guards.n_switches, guards.n_discretes, len(compiled.constraints.closures)
     nothing = runtime.tape(NOTHING)
     return {
         **runtime.sections,
         "layout": runtime.layout(counts, 0, len(guards.timed), instants.numel(), 0),
+        "start": floats(np.zeros(places)),
+        "rates": ints(are_rates(compiled)),
+        "names": b"".join(name.encode() + b"\0" for name in compiled.states),
         "roles": ints(np.full(r.p.numel(), INNER)),
         "starts": ints(np.full(compiled.nx, -1)),
         "inputs": b"",
@@ -45,6 +50,15 @@ def _sections(compiled: CompiledModel, energies: bool, moves: bool) -> dict[str,
         "bounds": b"",
         "limited": b"",
     }
+
+
+@memoized_latest(2)
+def _unit(
+    compiled: CompiledModel, energies: bool, moves: bool, sizes: bytes, damped: bytes, nominal: bytes, natural: bytes
+) -> Unit:
+    """Return the model as the core reads it, with the sections that differ between runs."""
+    own = {"sizes": sizes, "damped": damped, "nominal": nominal, "natural": natural, "token": b"run\0"}
+    return Unit(framed(VERSION, {**_sections(compiled, energies, moves), **own}))
 
 
 def make_run(
@@ -86,27 +100,19 @@ def make_run(
         Functions that are called at events; without them they keep their results.
     """
     compiled = problem.compiled
-    runtime = _runtime(compiled, energy, moves)
-    start = StoredModel(
-        runtime.equations,
-        at.time,
-        *(at.x, at.z, problem.p, at.constants.vector),
-        size=nominal[: compiled.nx],
-        rate=are_rates(problem),
-        names=compiled.states,
-    )
     follows = closing_scales(problem, at) if compiled.constraints.size else problem.nominal[: compiled.nx]
-    sections = {
-        **_sections(compiled, energy, moves),
-        **start.start,
-        "damped": floats(sizes(problem, nominal, vibration)),
-        "nominal": floats([span, tolerance, *nominal, *problem.loop_scales, *follows]),
-        "natural": floats(nominal[compiled.nx :]),
-        "token": b"run\0",
-    }
+    unit = _unit(
+        compiled,
+        energy,
+        moves,
+        floats(nominal[: compiled.nx]),
+        floats(sizes(problem, nominal, vibration)),
+        floats([span, tolerance, *nominal, *problem.loop_scales, *follows]),
+        floats(nominal[compiled.nx :]),
+    )
     guards = compiled.guards
     numbers = compiled.nx, compiled.nz, len(at.constants.vector), len(guards.watched), len(guards.timed)
-    run = Run(framed(VERSION, sections), numbers, room)
+    run = Run(unit, numbers, room)
     if functions:
         run.calls(functions, functions.arguments, functions.results)
     externals = compiled.reduced.flat.parameters.externals

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal.solve.problem import Problem
+from acausal.compiler import CompiledModel
+from acausal.solve.problem import Problem, rates_of
 
 
 def sizes(problem: Problem, nominal: np.ndarray, vibration: float) -> np.ndarray:
@@ -30,8 +31,8 @@ def sizes(problem: Problem, nominal: np.ndarray, vibration: float) -> np.ndarray
     return size
 
 
-def are_rates(problem: Problem) -> np.ndarray:
+def are_rates(compiled: CompiledModel) -> np.ndarray:
     """Return which states are rates of others, as the core takes them, shape (nx,)."""
-    found = np.zeros(problem.nx, dtype=np.int32)
-    found[[rate for _, rate in problem.rates]] = 1
+    found = np.zeros(compiled.nx, dtype=np.int32)
+    found[[rate for _, rate in rates_of(compiled)]] = 1
     return found
