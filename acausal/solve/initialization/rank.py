@@ -64,10 +64,12 @@ def least_norm(
 def factored(
     J: scipy.sparse.csc_matrix, sizes: np.ndarray, cutoff: float, order: str = "COLAMD"
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Return a solver by sparse LU factors, by `least_norm` with rows of length 1 if the matrix is singular or not square."""
+    """Return a solver by sparse LU factors, by `least_norm` if the matrix is singular or not square."""
     try:
         return scipy.sparse.linalg.splu(J.tocsc(), permc_spec=order).solve
-    except (RuntimeError, ValueError):
+    except RuntimeError:
+        return least_norm(J.toarray(), sizes, cutoff)
+    except ValueError:  # some equations are redundant: their units would decide which singular values count as 0
         rows = J.toarray()
         length = np.linalg.norm(rows * sizes, axis=1, keepdims=True)
         length[~(length > 0)] = 1.0
