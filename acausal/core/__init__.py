@@ -6,10 +6,11 @@ from acausal.core.library import why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
 from acausal.core.reasons import Doubt, End
-from acausal.core.run import Back, Happened, Multistep, Rows, Run, RunState, Unit
+from acausal.core.run import Back, Happened, Multistep, Rows, Run, RunState
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.sundials import why_no_idas
 from acausal.core.tape import Tape, make_tape
+from acausal.core.unit import Unit
 
 __all__ = [
     "LU",

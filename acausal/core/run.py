@@ -9,7 +9,8 @@ from enum import IntEnum
 
 import numpy as np
 
-from acausal.core.library import CALL, address, loaded
+from acausal.core.library import CALL, address
+from acausal.core.unit import Unit
 from acausal.locks import locked, unlocked
 
 
@@ -130,31 +131,6 @@ class Happened:
     failed: bool
     why: int
     acts: np.ndarray
-
-
-class Unit:
-    """A model file that the core has read; it does not change, and runs share it.
-
-    Parameters
-    ----------
-    content : bytes
-        The file.
-
-    Raises
-    ------
-    ValueError
-        If the file is not readable.
-    """
-
-    def __init__(self, content: bytes) -> None:
-        self.library, self.memory, why = loaded(), None, c_int32()
-        self.memory = self.library.ac_unit_read(content, len(content), byref(why))
-        if not self.memory:
-            raise ValueError(f"the model file is not readable: reason {why.value}")
-
-    def __del__(self) -> None:
-        if getattr(self, "memory", None):
-            self.library.ac_unit_free(self.memory)
 
 
 class Run:

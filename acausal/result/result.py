@@ -249,8 +249,7 @@ class Result:
         plots : sequence of str, Path or Expr
             Quantities plotted below the picture; the outputs if empty.
         values : sequence of str
-            Extra quantities by which beams can be coloured: "bending moment", "bending moment y", "torque", "axial force", or
-            "all".
+            Extra quantities by which beams can be coloured, such as "bending moment", "torque", "axial force"; or "all".
         title : str
             Title of the picture.
         deformation : float
