@@ -233,10 +233,7 @@ static int counts(const double *count, const ac_section *s) {
 
 /* Columns of tables: how many, then of each how many numbers, and these. Without the section they are those of this process. */
 static int read_tables(ac_section s, ac_unit *u) {
-    if (!s.at) {
-        if (ac_shared_tables()) u->tables = *ac_shared_tables();
-        return 1;
-    }
+    if (!s.at) return 1;
     const double *count = ac_take(&s, 1, sizeof *count);
     if (!counts(count, &s)) return 0;
     u->tables.count = (int32_t)*count;
@@ -250,11 +247,13 @@ static int read_tables(ac_section s, ac_unit *u) {
     return !s.left;
 }
 
+/* Without columns of its own a unit has those of this process, to which later ones are added. */
 static void bind_tables(ac_unit *u) {
-    for (int k = 0; k < AC_EQUATION_TAPES; k++) u->parts.tape[k].tables = &u->tables;
-    for (int k = 0; k < AC_TAPES; k++) u->tape[k].tables = &u->tables;
-    for (int k = 0; k < AC_SQUARES; k++) u->squared[k].tables = &u->tables;
-    for (int k = 0; k < AC_ROW_TAPES; k++) u->row_tape[k].tables = &u->tables;
+    const ac_tables *tables = u->column || !ac_shared_tables() ? &u->tables : ac_shared_tables();
+    for (int k = 0; k < AC_EQUATION_TAPES; k++) u->parts.tape[k].tables = tables;
+    for (int k = 0; k < AC_TAPES; k++) u->tape[k].tables = tables;
+    for (int k = 0; k < AC_SQUARES; k++) u->squared[k].tables = tables;
+    for (int k = 0; k < AC_ROW_TAPES; k++) u->row_tape[k].tables = tables;
 }
 
 static int read_all(const ac_section *found, ac_unit *u) {

@@ -21,7 +21,7 @@ from acausal.solve.initialization.newton import InitialSystem, algebraic
 from acausal.solve.initialization.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.initialization.redundancy import Redundancy, find_redundancy
 from acausal.solve.point import Point
-from acausal.solve.problem import Problem
+from acausal.solve.problem import Problem, lengths
 
 LOOPS = POLICY.loops
 
@@ -118,7 +118,10 @@ def _reduced(
 ) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
     """Jacobians by the free states of the constraints, and of some rows with algebraic unknowns eliminated."""
     nx, nz = problem.nx, problem.nz
-    M, size = problem.scaled_gradients(at)[:, free], problem.loop_scales[free]
+    whole, size = problem.scaled_gradients(at), problem.loop_scales[free]
+    M = whole[:, free]
+    # What fixed states determine leaves round-off in the columns of the others.
+    M.data[(lengths(M) <= POLICY.ranks.rank * lengths(whole))[M.indices]] = 0.0
     if not rows.size:
         return M, np.zeros((0, len(free)))
     J = problem.local(at, flag).jacobian.tocsc()

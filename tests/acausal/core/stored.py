@@ -48,7 +48,7 @@ def scene(name: str) -> StoredModel:
         at.time,
         *(at.x, at.z, problem.p, at.constants.vector),
         size=problem.nominal[: problem.nx],
-        rate=are_rates(problem),
+        rate=are_rates(model),
         names=model.states,
     )
 
