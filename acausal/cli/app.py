@@ -42,9 +42,17 @@ if TYPE_CHECKING:
 
 MODES = ("states", "eigenvalues", "frequencies_hz", "damping_ratios", "inputs", "outputs")
 
+FIRST = """Acausal modelling of machines with rigid and flexible parts.
+
+    acausal simulate pendulum --animate pendulum.html    a scene, as a page for any browser
+    acausal list                                         all scenes
+    acausal new machine.py                               a commented model to start from
+    acausal show Revolute                                parameters, variables and ports of a component
+    acausal --help                                       all commands"""
+
 app = typer.Typer(
     help="Acausal modelling of machines with rigid and flexible parts.",
-    no_args_is_help=True,
+    invoke_without_command=True,
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -58,6 +66,13 @@ def main() -> None:
         app(prog_name="acausal")
     except SystemExit as end:
         sys.exit(flushed(end.code))
+
+
+@app.callback()
+def first_words(context: typer.Context) -> None:
+    """Acausal modelling of machines with rigid and flexible parts."""
+    if context.invoked_subcommand is None:
+        typer.echo(FIRST)
 
 
 @app.command("list")
