@@ -48,3 +48,9 @@ class Path:
 
     def __str__(self) -> str:
         return self._path
+
+    def __repr__(self) -> str:
+        return f"{self._path} ({self._class.__name__})" if self._make is not None else self._path
+
+    def __dir__(self) -> list[str]:
+        return list(getattr(self._class, "fields", ()))

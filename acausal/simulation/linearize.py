@@ -42,7 +42,10 @@ SINGULAR_AT_REST = (
 NEARLY_SINGULAR = 1e-7
 
 
-@dataclass(frozen=True)
+SHOWN = 8  # frequencies in the short text
+
+
+@dataclass(frozen=True, repr=False)
 class Linearization:
     """Linear system dx/dt = A x + B u, y = C x + D u in the deviations from the linearisation point.
 
@@ -61,6 +64,19 @@ class Linearization:
     states: tuple[str, ...]
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        counts = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
+        shown = ", ".join(f"{f:.4g}" for f in self.frequencies_hz[:SHOWN])
+        more = ", ..." if len(self.frequencies_hz) > SHOWN else ""
+        return f"Linearization({counts}; frequencies in Hz: {shown or 'none'}{more})"
+
+    def _repr_html_(self) -> str:
+        """Show frequencies and damping ratios."""
+        modes = zip(self.frequencies_hz, self.damping_ratios, strict=True)
+        rows = "".join(f"<tr><td>{f:.6g}</td><td>{d:.4g}</td></tr>" for f, d in modes)
+        table = f"<table><tr><th>frequency [Hz]</th><th>damping ratio</th></tr>{rows}</table>" if rows else ""
+        return f"<p>{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs</p>{table}"
 
     @property
     def eigenvalues(self) -> np.ndarray:
