@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from html import escape
+from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 import numpy as np
@@ -15,11 +16,14 @@ from acausal.compiler.algebraic_newton import NewtonStep, newton_steps
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Layout
 from acausal.compiler.constraint_jacobian import Constraints
+from acausal.compiler.diagram import diagram
+from acausal.compiler.equations import EquationList, collected, equations_of
 from acausal.compiler.event_conditions import EventConditions
 from acausal.compiler.linearization import PointLinearization
 from acausal.compiler.memo import memoized
 from acausal.compiler.model_source import Source, pickled
 from acausal.compiler.parameters import Settable
+from acausal.compiler.part_graph import part_graph
 from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
 from acausal.compiler.vectorized import Vectorized
@@ -28,6 +32,9 @@ from acausal.language.functions import initial, time
 from acausal.locks import exclusive
 from acausal.reduce import Dependence, ReducedModel
 from acausal.symbols import scalars, stacked
+
+if TYPE_CHECKING:
+    import networkx
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +63,15 @@ class CompiledModel:
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the source of the model; unpickling compiles it again."""
         return pickled(self.source)
+
+    def __repr__(self) -> str:
+        return f"CompiledModel({type(self.tree).__name__}: {self.nx} states, {self.nz} algebraic unknowns)"
+
+    @exclusive
+    def _repr_html_(self) -> str:
+        """Show the report, and the diagram of the parts if the model has a source."""
+        drawn = diagram(part_graph(collected(self.source, self.tree, ""), "")) if self.source else ""
+        return f"<pre>{escape(summary(self.report_at()))}</pre>{drawn}"
 
     def __copy__(self) -> CompiledModel:
         # The equations are immutable and shared; all that is computed from them is computed again.
@@ -93,6 +109,16 @@ class CompiledModel:
     def summary(self, found: AtStart | None = None) -> str:
         """Return the report as text, with the findings at a start."""
         return summary(self.report_at(found))
+
+    @exclusive
+    def equations(self, part: str = "", reduced: bool = False) -> EquationList:
+        """Return the equations of a part, or of the whole model, in sympy: as written, or as reduced; see `equations_of`."""
+        return equations_of(self.reduced, self.source, part, reduced)
+
+    @exclusive
+    def graph(self, part: str = "") -> networkx.MultiGraph:
+        """Return the parts of the model, or of a part, as nodes, and their connections as edges; see `part_graph`."""
+        return part_graph(collected(self.source, self.tree, part), part)
 
     @property
     def states(self) -> tuple[str, ...]:

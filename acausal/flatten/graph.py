@@ -38,6 +38,8 @@ class Graph:
         Unconnected ports of parts.
     wires : list of (Component, Wire, str)
         Signal connections with their component and line.
+    connects : list of (Component, Connect, str)
+        Connections of ports, likewise.
     """
 
     same: list[tuple[Connector, ...]]
@@ -46,6 +48,7 @@ class Graph:
     roots: list[Connector]
     unconnected: tuple[str, ...]
     wires: list[tuple[Component, Wire, str]]
+    connects: list[tuple[Component, Connect, str]]
 
 
 def build_graph(components: list[Component]) -> Graph:
@@ -89,7 +92,7 @@ def build_graph(components: list[Component]) -> Graph:
     groups.sort(key=lambda group: order[id(group[0])])
     joined = {id(port) for _, statement, _ in connects for port in (statement.a, statement.b)}
     alone = tuple(c._path for c in connectors if id(c) not in joined and c._owner is not None)
-    return Graph(groups, _balances(connectors, connects, order), cuts, chosen, alone, wires)
+    return Graph(groups, _balances(connectors, connects, order), cuts, chosen, alone, wires, connects)
 
 
 def _connecting(component: Component) -> list[tuple[Any, Origin]]:

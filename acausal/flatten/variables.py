@@ -65,10 +65,12 @@ class VariableArray:
     @cached_property
     def names(self) -> list[str]:
         """Names of the entries."""
-        shape = self.expr.shape
-        if not shape:
-            return [self.path]
-        return [f"{self.path}[{','.join(map(str, i[::-1]))}]" for i in np.ndindex(shape[::-1])]
+        return entry_names(self.path, self.expr.shape)
+
+
+def entry_names(path: str, shape: tuple[int, ...]) -> list[str]:
+    """Return the names of the entries of an array, column by column."""
+    return [f"{path}[{','.join(map(str, i[::-1]))}]" for i in np.ndindex(shape[::-1])] if shape else [path]
 
 
 def create_variables(components: list[Component], same: list[tuple[Connector, ...]]) -> list[VariableArray]:
