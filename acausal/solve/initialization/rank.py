@@ -10,7 +10,7 @@ import scipy
 
 from acausal.policy import POLICY
 from acausal.solve.initialization.sparse_rank import complement, gram, unit_rows
-from acausal.solve.problem import by_columns
+from acausal.solve.problem import by_columns, lengths
 
 RANKS = POLICY.ranks
 
@@ -70,11 +70,10 @@ def factored(
     except RuntimeError:
         return least_norm(J.toarray(), sizes, cutoff)
     except ValueError:  # some equations are redundant: their units would decide which singular values count as 0
-        rows = J.toarray()
-        length = np.linalg.norm(rows * sizes, axis=1, keepdims=True)
-        length[~(length > 0)] = 1.0
-        solve = least_norm(rows / length, sizes, cutoff)
-        return lambda right: solve((right.T / length[:, 0]).T)
+        length = lengths(by_columns(J.tocsc(), sizes))
+        length = np.where(length > 0, length, 1.0)
+        solve = least_norm(J.toarray() / length[:, None], sizes, cutoff)
+        return lambda right: solve((right.T / length).T)
 
 
 def null_space(rows: np.ndarray | scipy.sparse.csc_matrix, independent: int | None = None) -> np.ndarray:

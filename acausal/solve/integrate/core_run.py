@@ -7,7 +7,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.memo import memoized, memoized_latest
 from acausal.compiler.runtime import INNER, NOTHING, VERSION, Runtime
-from acausal.core import Run, Unit
+from acausal.core import Run, StoredModel, Unit
 from acausal.core.model_file import floats, framed, ints
 from acausal.solve.initialization.assembly import levels
 from acausal.solve.initialization.coordinate_partitioning import closing_scales
@@ -31,15 +31,15 @@ def _sections(compiled: CompiledModel, energies: bool, moves: bool) -> dict[str,
     runtime, guards, r = _runtime(compiled, energies, moves), compiled.guards, compiled.reduced
     instants = guards.scheduled.function(r.p, r.constants)
     # A run begins where it is told: equal models, of any start and parameters, are read once.
-    places = 1 + compiled.nx + compiled.nz + r.p.numel() + r.constants.numel()
+    nx, zeros = compiled.nx, np.zeros
+    x, z, p, c, size = zeros(nx), zeros(compiled.nz), zeros(r.p.numel()), zeros(r.constants.numel()), zeros(nx)
+    start = StoredModel(runtime.equations, 0.0, x, z, p, c, size, are_rates(compiled), compiled.states)
     counts = guards.n_switches, guards.n_discretes, len(compiled.constraints.closures)
     nothing = runtime.tape(NOTHING)
     return {
         **runtime.sections,
         "layout": runtime.layout(counts, 0, len(guards.timed), instants.numel(), 0),
-        "start": floats(np.zeros(places)),
-        "rates": ints(are_rates(compiled)),
-        "names": b"".join(name.encode() + b"\0" for name in compiled.states),
+        **start.start,
         "roles": ints(np.full(r.p.numel(), INNER)),
         "starts": ints(np.full(compiled.nx, -1)),
         "inputs": b"",
