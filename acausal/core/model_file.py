@@ -1,4 +1,4 @@
-"""The model as a file: all that the core needs to integrate it, see docs/model-file.md."""
+"""The model as a file: all that the core needs to integrate it, see docs/background/model-file.md."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The model as a file that the library of an FMU reads, see docs/model-file.md."""
+"""The model as a file that the library of an FMU reads, see docs/background/model-file.md."""
 
 from __future__ import annotations
 

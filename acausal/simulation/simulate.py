@@ -76,8 +76,8 @@ def simulate(
         "idas" is SUNDIALS' multistep method, with every velocity in its error test, so that it resolves every vibration;
         "resolve" is another name for it. "rosenbrock" is a one-step method of order 5 that damps vibrations too small to be
         seen in positions. "auto" resolves them by the one-step method, damps them if vibrations faster than the outputs
-        take more steps than the motion, and takes IDAS where loops pass singular configurations (docs/ringing.md). Default
-        "auto".
+        take more steps than the motion, and takes IDAS where loops pass singular configurations
+        (docs/background/ringing.md). Default "auto".
     constraints : "auto", "states" or "projection"
         How closed loops stay closed: "states" integrates independent coordinates, chosen by pivots at the start and again
         if the pivots become small; "projection" integrates all of them and projects. "auto" projects in the core; IDAS

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
-PROGRAMS = {"tutorial.md": 8, "signs.md": 3}  # pages, and how many outputs they show
+PROGRAMS = {"start/tutorial.md": 8, "from/signs.md": 3}  # pages, and how many outputs they show
 NUMBER = re.compile(r"-?\d+\.\d+")
 
 

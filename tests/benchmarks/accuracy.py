@@ -1,4 +1,4 @@
-"""Tables and pictures of docs/accuracy.md: what accuracy costs in time, and what each effect changes and costs.
+"""Tables and pictures of docs/background/accuracy.md: what accuracy costs in time, and what each effect changes and costs.
 
     OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.accuracy [SECTION]...
 
@@ -23,7 +23,7 @@ from acausal.study import Study
 from components import Body, FlexibleBeam, Revolute, World
 from models import FEPlate, FlexiblePendulum, FreeVibration, SliderCrank, SpinUp
 
-DOCUMENT = Path("docs/accuracy.md")
+DOCUMENT = Path("docs/background/accuracy.md")
 STIFFENED = {"formulation": "fem", "beam.geometric_stiffness": True}
 BEAM: dict[str, Any] = {"length": 0.5, "E": 1e7, "rho": 1000.0, "A": 1e-3, "J": 1e-7}
 DAMPED = {"alpha": 1.0, "beta": 1e-4}

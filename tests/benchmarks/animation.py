@@ -1,4 +1,4 @@
-"""What moving pictures cost: python -m tests.benchmarks.animation prints the table of docs/animation.md.
+"""What moving pictures cost: python -m tests.benchmarks.animation prints the table of docs/how-to/animate.md.
 
 Seconds are processor time of the first picture of a result, memory is what writing takes beyond what the result has.
 """

@@ -1,6 +1,6 @@
-"""Curves of docs/beams.md: one linear finite-element beam against a substructured one on the spin-up.
+"""Curves of docs/background/beams.md: one linear finite-element beam against a substructured one on the spin-up.
 
-python -m tests.benchmarks.beam_curves docs/spin-up-stiffening.png
+python -m tests.benchmarks.beam_curves docs/pictures/spin-up-stiffening.png
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Campbell diagram of the blade: frequencies in the turning frame over the speed of the hub.
 
-python -m tests.benchmarks.campbell docs/blade-campbell.png
+python -m tests.benchmarks.campbell docs/pictures/blade-campbell.png
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Benchmark: steps in reconfigured inertial frames beside the floating frame and the rigid body, on the plate of their paper.
 
     python -m tests.benchmarks.fe_plate
-    python -m tests.benchmarks.fe_plate --mesh hex20 --picture docs/reconfigured.png
+    python -m tests.benchmarks.fe_plate --mesh hex20 --picture docs/pictures/reconfigured.png
 
 Figures 4 to 13 of the paper in one picture (mm, under the half sine of `fe-plate`), a table of the differences from the floating
 frame for several motions and from the rigid plate in what the figures show, the gap that remains as dt -> 0 against the

@@ -143,7 +143,7 @@ typedef struct ac_request ac_request; /* for one integration, see `stepper.h` */
 AC_PUBLIC int32_t ac_shares(int32_t n, const double *A, const double *b, const double *reached, double *share, double *sense,
                             double *sticks);
 
-/* A model as a file has it; the format is in docs/model-file.md. */
+/* A model as a file has it; the format is in docs/background/model-file.md. */
 typedef struct {
     ac_equations equations;
     double time;                 /* where it starts, consistent */

@@ -46,7 +46,7 @@ def export_dae(
     """Write a model as an open DAE, an archive for `load_dae` and other programs.
 
     The archive contains variables, parameters and equations with names, units and origins in JSON, all expressions as lists
-    of operations, and the model in Base Modelica; docs/open-dae.md describes the format.
+    of operations, and the model in Base Modelica; docs/background/open-dae.md describes the format.
 
     Parameters
     ----------

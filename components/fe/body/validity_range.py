@@ -11,7 +11,7 @@ from components.fe.reduction.interface import Interface
 from components.fe.reduction.reduced_body import ReducedBody
 
 # Limit of w^2 relative to the square of the first frequency, the missing part of the stiffness: at half of the first
-# frequency, the deflection of the spin-up beam is a tenth too large (docs/fe.md).
+# frequency, the deflection of the spin-up beam is a tenth too large (docs/background/fe.md).
 SPIN = 0.25
 # Moment that counts as 0, relative to force times size of the body: round-off at the start, integration error during a
 # run.

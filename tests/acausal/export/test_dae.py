@@ -408,7 +408,7 @@ def test_a_file_that_cannot_be_written_is_refused(tmp_path):
 
 
 def test_read_without_acausal(good, tmp_path):
-    text = (Path(__file__).parents[3] / "docs/open-dae.md").read_text()
+    text = (Path(__file__).parents[3] / "docs/background/open-dae.md").read_text()
     code = re.search(r"```python\n(import json.*?)```", text, re.DOTALL)
     assert code
     assert len(code[1].splitlines()) <= 20

@@ -1,4 +1,4 @@
-"""`python -m tests.reference.msl.twins`: print the classes of Modelica's mechanics with their twins, and write docs/twins.md.
+"""`python -m tests.reference.msl.twins`: print the twins of the classes of Modelica's mechanics and write docs/from/twins.md.
 
 The twin of a class has its name, in the package that PLACES tells. NAMES lists twins of other names; REASONS says why there is
 none, for a class or a package. A line with TO_COME is ignored as soon as the twin exists.
@@ -15,7 +15,7 @@ from pkgutil import resolve_name
 from tests.reference.msl.classes import NAMES as CLASSES
 from tests.reference.msl.classes import TAG
 
-PAGE = Path(__file__).parents[3] / "docs" / "twins.md"
+PAGE = Path(__file__).parents[3] / "docs/from/twins.md"
 TO_COME = "to come"
 GRAPHICS = "graphics only: components draw themselves in `shapes()`"
 MATRICES = "matrices are arrays: write the operation"
@@ -169,7 +169,8 @@ def page() -> Iterator[str]:
     yield "# Twins of Modelica's classes\n"
     yield "The classes of Modelica.Mechanics.MultiBody, Rotational and Translational in the Modelica Standard Library"
     yield f"({TAG}), and their counterparts in `components`, without examples, icons, guides, types and internal classes."
-    yield "Written by `python -m tests.reference.msl.twins`; [components.md](components.md#the-library) lists the differences.\n"
+    yield "Written by `python -m tests.reference.msl.twins`; [components](../how-to/write-components.md#the-library)"
+    yield "lists the differences.\n"
     left = len(missing())
     yield f"{len(names)} classes: {twins} have a twin, {left} are to come, {len(names) - twins - left} need none."
     for package, inside in groupby(names, key=lambda name: name.rpartition(".")[0]):

@@ -100,7 +100,7 @@ def test_no_contact_is_missed(tolerance, intervals, method):
     np.testing.assert_allclose(result["b.r_0"][-1, :2], collision(), atol=1e2 * tolerance + 1e-6)
     assert (
         abs(result.stats["energy_method"]) < 1e3 * tolerance
-    )  # what a body that oscillates may lose, docs/hard-cases.md
+    )  # what a body that oscillates may lose, docs/background/hard-cases.md
 
 
 @pytest.mark.parametrize("speed", [10.0, 100.0])

@@ -122,7 +122,7 @@ def test_error_of_the_method_and_error_of_the_step():
     )
     steps = simulate_reconfigured(plate(), (), 0.04, 2.5e-5, spin=spin).w[::40]
     method = np.abs(limit["body.w_a"] - exact["body.w_a"]).max()
-    assert method == pytest.approx(1.20e-7 * (7.4 * 3**0.5) ** 3, rel=0.05)  # docs/reconfigured.md
+    assert method == pytest.approx(1.20e-7 * (7.4 * 3**0.5) ** 3, rel=0.05)  # docs/background/reconfigured.md
     assert np.abs(steps - limit["body.w_a"]).max() < 1e-3 * method
     assert np.abs(steps - exact["body.w_a"]).max() == pytest.approx(method, rel=1e-3)
 
