@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, overload
 
+SHARED = "with"  # origin of the equations of shared subexpressions
 LISTED = 60  # equations that a text or a notebook shows
 DERIVATIVE = re.compile(r"der\((.*)\)")
 PATH = re.compile(r"[\w.\[\],]+")
@@ -79,6 +80,14 @@ class EquationList(Sequence[ReadEquation]):
     def _own(self, text: str) -> str:
         """Return a text with the names that variables have within the part."""
         return re.sub(rf"(?<![\w.]){re.escape(self.part)}\.", "", text) if self.part else text
+
+
+def listed(equations: Iterable[ReadEquation], shared: Mapping[Any, Any], part: str) -> EquationList:
+    """Return equations followed by those of the symbols that stand for shared subexpressions."""
+    import sympy
+
+    more = (ReadEquation(SHARED, sympy.Eq(symbol, value, evaluate=False)) for symbol, value in shared.items())
+    return EquationList((*equations, *more), part)
 
 
 def _rows(equation: Any) -> list[str]:

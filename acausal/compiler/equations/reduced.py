@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from acausal.compiler.equations.listing import EquationList, ReadEquation
+from typing import Any
+
+from acausal.compiler.equations.listing import EquationList, ReadEquation, listed
 from acausal.compiler.equations.sympy_expressions import to_sympy
 from acausal.compiler.equations.written import is_within
 from acausal.compiler.full_residuals import origin_of
@@ -36,8 +38,8 @@ def reduced_equations(reduced: ReducedModel, part: str) -> EquationList:
         if is_within(origin.path, part)
     ]
     names = {s.element_hash(): name for s, name in zip(scalars(reduced.unknowns), reduced.names, strict=True)}
-    read = to_sympy([entry for _, entry in (*rates, *left)], names)
+    read = to_sympy([entry for _, entry in (*rates, *left)], names, shared := dict[Any, Any]())
     sides = [*(sympy.Symbol(name, real=True) for name, _ in rates), *[sympy.Integer(0)] * len(left)]
     where = [*["states"] * len(rates), *(origin for origin, _ in left)]
     equations = (sympy.Eq(a, b, evaluate=False) for a, b in zip(sides, read, strict=True))
-    return EquationList(tuple(map(ReadEquation, where, equations)), part)
+    return listed(map(ReadEquation, where, equations), shared, part)

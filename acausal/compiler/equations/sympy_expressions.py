@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
@@ -11,11 +12,15 @@ import casadi as ca
 
 from acausal.instructions import CONSTANT, FIND, INPUT, LOAD, PUT, READABLE, VALUE, read_instructions
 
+# Operations above which a subexpression that occurs more than once gets a name: written out, expressions grow exponentially.
+LONG = 30
 # Denominator of numbers that are written as fractions: 1/3 of a rule of Simpson, 5/6 of a shear factor.
 SIMPLE = 12
 
 
-def to_sympy(expressions: Sequence[ca.SX], names: Mapping[int, str] | None = None) -> list[Any]:
+def to_sympy(
+    expressions: Sequence[ca.SX], names: Mapping[int, str] | None = None, shared: dict[Any, Any] | None = None
+) -> list[Any]:
     """Return matrices or scalars of CasADi in sympy.
 
     Parameters
@@ -24,6 +29,9 @@ def to_sympy(expressions: Sequence[ca.SX], names: Mapping[int, str] | None = Non
         Expressions of any shape.
     names : mapping of int to str, optional
         Names of symbols by their hashes; others keep their own.
+    shared : dict, optional
+        Receives long subexpressions that occur more than once, by the symbols z1, z2, ... that stand for them. Without it all
+        are written out.
 
     Returns
     -------
@@ -36,6 +44,7 @@ def to_sympy(expressions: Sequence[ca.SX], names: Mapping[int, str] | None = Non
     function = ca.Function("f", [ca.vertcat(*symbols)], [ca.densify(e) for e in expressions], READABLE)
     own, operations = read_instructions(function), _operations()
     values: list[Any] = []
+    long = [False] * len(own.op) if shared is None else _long_and_shared(own)
     for k, (op, arguments) in enumerate(zip(own.op, own.arguments, strict=True)):
         if op == INPUT:
             symbol = symbols[own.place[k][1]]
@@ -44,11 +53,25 @@ def to_sympy(expressions: Sequence[ca.SX], names: Mapping[int, str] | None = Non
             values.append(_number(own.constant[k]))
         else:
             values.append(operations[op](*(values[i] for i in arguments)))
+            if shared is not None and long[k] and not _is_condition(values[k]):
+                symbol = sympy.Symbol(f"z{len(shared) + 1}", real=True)
+                shared[symbol], values[k] = values[k], symbol
     found = []
     for expression, entries in zip(expressions, own.results, strict=True):
         rows, columns = expression.shape
         matrix = [[_as_number(values[entries[i + j * rows]]) for j in range(columns)] for i in range(rows)]
         found.append(matrix[0][0] if (rows, columns) == (1, 1) else sympy.Matrix(matrix))
+    return found
+
+
+def _long_and_shared(function: Any) -> list[bool]:
+    """Return whether each value is used more than once and is long, written out in named values."""
+    uses = Counter(i for arguments in function.arguments for i in arguments)
+    size, found = list[int](), list[bool]()
+    for k, arguments in enumerate(function.arguments):
+        length = 1 + sum(size[i] for i in arguments)
+        found.append(length > LONG and uses[k] > 1)
+        size.append(1 if found[k] else length)
     return found
 
 
@@ -71,7 +94,7 @@ def _as_number(x: Any) -> Any:
     """Return 1 for what is true and 0 for what is false, as CasADi has them."""
     import sympy
 
-    return sympy.Piecewise((1, x), (0, True)) if _is_condition(x) else x
+    return sympy.Piecewise((1, x), (0, True), evaluate=False) if _is_condition(x) else x
 
 
 def _as_condition(x: Any) -> Any:
@@ -121,6 +144,8 @@ def _operations() -> dict[int, Callable[..., Any]]:
         ca.OP_NOT: lambda x: sp.Not(_as_condition(x)),
         ca.OP_AND: lambda x, y: sp.And(_as_condition(x), _as_condition(y)),
         ca.OP_OR: lambda x, y: sp.Or(_as_condition(x), _as_condition(y)),
-        ca.OP_IF_ELSE_ZERO: lambda case, x: sp.Piecewise((_as_number(x), _as_condition(case)), (0, True)),
+        ca.OP_IF_ELSE_ZERO: lambda case, x: sp.Piecewise(
+            (_as_number(x), _as_condition(case)), (0, True), evaluate=False
+        ),
     }
     return {op: of_numbers(function) for op, function in arithmetic.items()} | logic

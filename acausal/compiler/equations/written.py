@@ -7,7 +7,7 @@ from typing import Any
 
 import casadi as ca
 
-from acausal.compiler.equations.listing import EquationList, ReadEquation
+from acausal.compiler.equations.listing import EquationList, ReadEquation, listed
 from acausal.compiler.equations.sympy_expressions import to_sympy
 from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.component_tree import join, walk
@@ -37,13 +37,13 @@ def written_equations(raw: CollectedStatements, part: str) -> EquationList:
     for k, origin in enumerate(raw.equations.origins):
         if is_within(origin.path, part):
             placed.setdefault(origin.path, []).append(k)
-    found = []
+    found, shared = [], dict[Any, Any]()
     for path, numbers in placed.items():
         own = names | _own_names(within.get(path))
         sides = [side for k in numbers for side in raw.equations.sides[k]]
-        read = iter(_read(sides, own, raw))
+        read = iter(_read(sides, own, raw, shared))
         found += [(k, _equation(str(raw.equations.origins[k]), next(read), next(read))) for k in numbers]
-    return EquationList(tuple(equation for _, equation in sorted(found, key=lambda pair: pair[0])), part)
+    return listed([equation for _, equation in sorted(found, key=lambda pair: pair[0])], shared, part)
 
 
 def is_within(path: str, part: str) -> bool:
@@ -63,7 +63,7 @@ def _own_names(component: Component | None) -> dict[int, str]:
     return found
 
 
-def _read(sides: list[ca.SX], names: Mapping[int, str], raw: CollectedStatements) -> list[Any]:
+def _read(sides: list[ca.SX], names: Mapping[int, str], raw: CollectedStatements, shared: dict[Any, Any]) -> list[Any]:
     """Return expressions in sympy, with the names of variables, derivatives and switches."""
     known, constant = {time.sx.element_hash(): "time"} | dict(names), list[ca.SX]()
     for placeholder, expression in raw.pending.derivatives:
@@ -74,7 +74,7 @@ def _read(sides: list[ca.SX], names: Mapping[int, str], raw: CollectedStatements
             else:
                 constant.append(s)
     known |= {switch.element_hash(): f"({condition})" for switch, condition in raw.pending.switches}
-    return to_sympy(ca.substitute(sides, constant, [ca.SX(0)] * len(constant)), known)
+    return to_sympy(ca.substitute(sides, constant, [ca.SX(0)] * len(constant)), known, shared)
 
 
 def _equation(origin: str, left: Any, right: Any) -> ReadEquation:

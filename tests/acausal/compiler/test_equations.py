@@ -11,7 +11,7 @@ import acausal as ac
 import models
 from acausal import Model, chain, connect, fixed, reinit, when
 from acausal.compiler.equations.listing import typeset
-from acausal.compiler.equations.sympy_expressions import to_sympy
+from acausal.compiler.equations.sympy_expressions import LONG, to_sympy
 from components import Body, FixedTranslation, Revolute, World
 from components.blocks import Gain, Sine
 from components.rotational import Torque
@@ -38,6 +38,20 @@ def test_expressions_have_the_values_of_casadi(kind):
         exact = np.array(ca.Function("f", [x, y, c], [own])(*values))
         read = found.subs(dict(zip((sympy.Symbol(n, real=True) for n in "xyc"), values, strict=True)))
         np.testing.assert_allclose(np.array(read, dtype=float), exact, atol=1e-12)
+
+
+def test_long_shared_subexpressions_get_names():
+    value = x
+    for _ in range(40):  # written out: 2^40 operations
+        value = ca.sin(value * value + c)
+    shared: dict = {}
+    (found,) = to_sympy([value], shared=shared)
+    numbers = {sympy.Symbol("x", real=True): 0.7, sympy.Symbol("c", real=True): 0.3}
+    for symbol, expression in shared.items():
+        assert expression.count_ops() <= 3 * LONG
+        numbers[symbol] = float(expression.subs(numbers))
+    exact = ca.Function("f", [x, c], [value])(0.7, 0.3)
+    assert float(found.subs(numbers)) == pytest.approx(float(exact), rel=1e-12)
 
 
 def test_simple_pendulum_reads_like_its_textbook():
