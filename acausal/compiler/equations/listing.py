@@ -55,13 +55,17 @@ class EquationList(Sequence[ReadEquation]):
 
     def latex(self) -> str:
         """Return the equations as one aligned formula in LaTeX."""
+        return "\\begin{aligned}\n" + " \\\\\n".join(self.latex_rows()) + "\n\\end{aligned}"
+
+    def latex_rows(self) -> list[str]:
+        """Return each equation in LaTeX, with & before its equality sign."""
         import sympy
 
         rows = []
         for _, equation in self.entries:
             names = {symbol: typeset(self._own(symbol.name)) for symbol in equation.free_symbols}
             rows.append(" &= ".join(sympy.latex(side, symbol_names=names) for side in equation.args))
-        return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+        return rows
 
     def __repr__(self) -> str:
         lines, origin = list[str](), ""

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
+from math import isfinite
 from typing import Any
 
 import casadi as ca
@@ -78,6 +79,8 @@ def _long_and_shared(function: Any) -> list[bool]:
 def _number(value: float) -> Any:
     import sympy
 
+    if not isfinite(value):
+        return sympy.Float(value)
     simple = Fraction(value).limit_denominator(SIMPLE)
     return sympy.Rational(simple.numerator, simple.denominator) if float(simple) == value else sympy.Float(value)
 

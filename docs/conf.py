@@ -1,0 +1,45 @@
+"""Sphinx: the site. Built by `python -m sphinx -W docs build/site`, without a network."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+project = "acausal"
+author = "the authors of acausal"
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "generate.mathml",
+    "generate.scenes",
+    "generate.command_line",
+]
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 3
+html_theme = "furo"
+html_title = "acausal"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_extra_path = ["_generated/extra"]
+html_math_renderer = "mathml"
+html_copy_source = False
+exclude_patterns = ["generate", "_generated/extra"]
+default_role = "code"
+autodoc_typehints = "none"
+napoleon_google_docstring = False
+nitpicky = False
+
+
+def setup(app: Any) -> None:
+    """Write the pages that follow from the code before the first page is read."""
+    from generate import components, scenes
+
+    logging.getLogger("skfem").setLevel(logging.WARNING)
+
+    Path(app.srcdir, scenes.FOLDER).mkdir(parents=True, exist_ok=True)
+    app.connect("builder-inited", lambda app: components.write(Path(app.srcdir, "components")))

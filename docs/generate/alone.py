@@ -1,0 +1,58 @@
+"""A component by itself, for its example and the equations of its class."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import casadi as ca
+from generate.examples import ARGUMENTS, ORDINARY
+
+import acausal as ac
+import components
+from acausal.compiler.equations.written import written_equations
+from acausal.flatten.collected_statements import collect_statements
+from acausal.language.fields import MISSING, Parameter, Structural
+from components import fe
+from components.table import Entry
+
+
+class Alone(ac.Model):
+    """A component with its frames at the world."""
+
+    world = components.World()
+
+    def connections(self) -> Any:
+        frames = (port for port in vars(self.it).values() if isinstance(port, components.Frame))
+        yield from (ac.connect(self.world.frame_b, frame) for frame in frames)
+
+
+def arguments(entry: Entry) -> str:
+    """Return arguments of a component as source text: what it requires."""
+    if entry.name in ARGUMENTS:
+        return ARGUMENTS[entry.name]
+    required = {
+        name: field
+        for name, field in entry.cls.fields.items()
+        if isinstance(field, Parameter | Structural) and field.default is MISSING
+    }
+    return ", ".join(f"{name}={ORDINARY[tuple(field.shape or ())]}" for name, field in required.items())
+
+
+def equations(entry: Entry) -> Any:
+    """Return the equations that the class of a component states."""
+    names = {"ac": ac, "ca": ca, "cls": entry.cls, "rod": rod}
+    part = eval(f"cls({arguments(entry)})", names)
+    model = type(entry.cls.__name__, (Alone,), {"it": part})
+    return written_equations(collect_statements(model(), {}), "it")
+
+
+def rod() -> Any:
+    """A small body from finite elements."""
+    M, K, nodes = fe.box((0.5, 0.04, 0.03), (4, 1, 1), "hex8", E=6e7, nu=0.3, rho=1000.0)
+    return fe.reduce_body(M, K, nodes, frames={"root": [0, 1, 2, 3]}, hold="root", modes=2)
+
+
+def file_of(entry: Entry) -> str:
+    """Return the file of a component, from the top of the project."""
+    return inspect.getfile(entry.cls).replace("\\", "/").rpartition("/components/")[2]
