@@ -6,7 +6,6 @@ import inspect
 from typing import Any
 
 import casadi as ca
-from generate.examples import ARGUMENTS, ORDINARY
 
 import acausal as ac
 import components
@@ -15,6 +14,7 @@ from acausal.flatten.collected_statements import collect_statements
 from acausal.language.fields import MISSING, Parameter, Structural
 from components import fe
 from components.table import Entry
+from generate.examples import ARGUMENTS, ORDINARY
 
 
 class Alone(ac.Model):
@@ -23,6 +23,7 @@ class Alone(ac.Model):
     world = components.World()
 
     def connections(self) -> Any:
+        """Connect the frames of the component."""
         frames = (port for port in vars(self.it).values() if isinstance(port, components.Frame))
         yield from (ac.connect(self.world.frame_b, frame) for frame in frames)
 

@@ -6,14 +6,13 @@ import inspect
 from collections import defaultdict
 from pathlib import Path
 
+import components
+from acausal import Connector
+from components.table import Entry
 from generate.alone import arguments, equations, file_of
 from generate.docstrings import entries, sections, table
 from generate.symbols import symbol
 from generate.used import scenes_with
-
-import components
-from acausal import Connector
-from components.table import Entry
 
 PACKAGES = {
     "": ("Machines in space", "Worlds, joints, bodies, beams, forces and wheels: frames at their ends."),

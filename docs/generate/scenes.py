@@ -11,11 +11,11 @@ from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import directives
-from generate.docstrings import table
-from generate.used import SCENES, on_command_line
 from sphinx.util.docutils import SphinxDirective
 
 import acausal as ac
+from generate.docstrings import table
+from generate.used import SCENES, on_command_line
 
 FOLDER = "_generated/extra/explore"  # in the folder of the pages; copied to `explore` of the site
 
@@ -24,7 +24,7 @@ class Scene(SphinxDirective):
     """Simulate a scene and show it; a warning is an error.
 
     Options: `set` as on the command line, `values` and `deformation` as of `Result.animate`, `plot` of the outputs instead of
-    the machine.
+    the machine, `warns` the reason why the page to explore warns.
     """
 
     required_arguments = 1
@@ -33,6 +33,7 @@ class Scene(SphinxDirective):
         "values": directives.unchanged,
         "deformation": float,
         "plot": directives.flag,
+        "warns": directives.unchanged,
     }
 
     def run(self) -> list[Any]:
@@ -43,7 +44,10 @@ class Scene(SphinxDirective):
             warnings.simplefilter("error")
             result = ac.simulate(cls(), parameters=self._parameters())
             self._draw(result, folder / f"{name}.png")
-            getattr(result, "explore", result.animate)(folder / f"{name}.html")
+            if "warns" in self.options:
+                warnings.simplefilter("ignore")
+            if "plot" not in self.options:
+                getattr(result, "explore", result.animate)(folder / f"{name}.html")
         self.env.note_dependency(inspect.getfile(cls))
         return self.parse_text_to_nodes(self._text(name, cls, result))
 
