@@ -1,4 +1,4 @@
-"""Tables and pictures of docs/background/accuracy.md: what accuracy costs in time, and what each effect changes and costs.
+"""Tables of docs/background/accuracy-tables.md and their pictures: accuracy and computing time, effects and their cost.
 
     OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.accuracy [SECTION]...
 
@@ -23,7 +23,8 @@ from acausal.study import Study
 from components import Body, FlexibleBeam, Revolute, World
 from models import FEPlate, FlexiblePendulum, FreeVibration, SliderCrank, SpinUp
 
-DOCUMENT = Path("docs/background/accuracy.md")
+DOCUMENT = Path("docs/background/accuracy-tables.md")
+PICTURES = Path("docs/pictures")
 STIFFENED = {"formulation": "fem", "beam.geometric_stiffness": True}
 BEAM: dict[str, Any] = {"length": 0.5, "E": 1e7, "rho": 1000.0, "A": 1e-3, "J": 1e-7}
 DAMPED = {"alpha": 1.0, "beta": 1e-4}
@@ -83,7 +84,7 @@ def slider_crank() -> str:
 def fe_plate() -> str:
     """Every case, as methods are compared here."""
     found = ac.study(FEPlate())
-    found.plot(DOCUMENT.with_name("accuracy-fe-plate.png"))
+    found.plot(PICTURES / "accuracy-fe-plate.png")
     lines = "\n".join(f"- {line}" for line in [*found.price(), *found.gaps()])
     return f"{_sentence(str(found.reference))}\n\n{_table(found, found.rows)}\n\n{lines}"
 
@@ -131,8 +132,8 @@ def growth() -> str:
         "solve ms",
         "steps",
         "factorisations",
-        "µs a step",
-        "µs a step and volume",
+        "µs per step",
+        "µs per step and volume",
     )
     rows = []
     for size, row in zip(sizes, found.rows, strict=True):
@@ -182,7 +183,7 @@ SECTIONS: Mapping[str, Callable[[], str]] = {
 def _scene(model: Model, name: str, outputs: Sequence[str] = ()) -> str:
     """Study of a scene: its best points and its picture; the reference is kept for other sections."""
     found = ac.study(model, outputs=outputs)
-    found.plot(DOCUMENT.with_name(f"accuracy-{name}.png"))
+    found.plot(PICTURES / f"accuracy-{name}.png")
     known = found.reference
     pd.DataFrame({"time": known.times, **known.values}).to_csv(_kept(name), index=False)
     price = "\n".join(f"- {line}" for line in found.price())
