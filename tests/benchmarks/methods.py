@@ -1,6 +1,8 @@
-"""Every scene with the core's method, with IDAS and with what "auto" takes: errors and processor times in one run.
+"""Every scene with every method: errors, processor times and steps.
 
-OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.methods [SCENE]... [--tolerances 1e-3,1e-5,1e-7] [--around 5] [--markdown]
+    OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.methods [SCENE]... [--tolerances 1e-3,1e-5,1e-7] [--around 5] [--write]
+
+`--write` writes the table as docs/background/methods-tables.md instead of printing it.
 
 With `--around`, errors and times are medians over so many tolerances, from three quarters to four thirds of each: where a run
 takes a hundred steps, one more or less changes its error several times.
@@ -9,30 +11,36 @@ takes a hundred steps, one more or less changes its error several times.
 from __future__ import annotations
 
 import argparse
+import re
 import time
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
-from rich import box
-from rich.console import Console
-from rich.table import Table
 
 import acausal as ac
 import models
 from acausal.compiler import CompiledModel
 from tests.benchmarks.anew import run_anew
 
+PAGE = Path("docs/background/methods-tables.md")
 METHODS = ("rosenbrock", "idas", "auto")
 # A reference of each method: their distance tells how far they are known. Of free vibration, a part is enough.
 REFERENCES = (("auto", 1e-10), ("idas", 1e-9))
 PARTS = {"free-vibration": 0.05}
 REPEATS = 3
-LEGEND = (
-    "Error: largest over all outputs, as a fraction of the range of each, against the first of two references; known to: "
-    "distance of the two. ms: processor time of `simulate`, best of three, in a run that has compiled before."
-)
+HEAD = ("scene", "tolerance", *(f'"{method}"' for method in METHODS), "behind")
+INTRODUCTION = """# Every scene with every method: table
+
+Written by `python -m tests.benchmarks.methods --tolerances {tolerances} --write`.
+
+Entries are error, processor time in ms (steps). The error is the largest of any output relative to its range, compared with a run
+at 1e-10; the time is that of `simulate` with a compiled model, best of three. The free vibration runs for 0.05 s. "Damped": fast
+vibrations are damped. The last column marks cells where "auto" has more than twice the error of IDAS at the same tolerance, or
+takes more than 4/3 of the time of the better of the other two (the faster one with at most twice the error of IDAS).
+"""
 
 
 @dataclass(frozen=True)
@@ -99,13 +107,12 @@ def typical(found: list[Run], tolerance: float) -> Run:
     return replace(failed[0] if failed else middle, tolerance=tolerance, seconds=seconds)
 
 
-def runs(scene: str, tolerances: list[float], around: int) -> Iterator[list[Run]]:
-    """The three runs of each tolerance."""
+def runs(scene: str, tolerances: list[float], around: int, known: dict[str, float]) -> Iterator[list[Run]]:
+    """The three runs of each tolerance; `known` gets the uncertainty of the reference."""
     factors = 0.75 ** np.linspace(-1, 1, around) if around > 1 else np.ones(1)
     cls = models.SCENES[scene]
     stop_time, compiled = float(getattr(cls, "stop_time")) * PARTS.get(scene, 1.0), ac.compile(cls())  # noqa: B009
-    exact, known = reference(compiled, stop_time)
-    Console().print(f"{scene}: known to {known:.1e}")
+    exact, known[scene] = reference(compiled, stop_time)
     for tolerance in tolerances:
         near = [float(tolerance * factor) for factor in factors]
         found = [[measured(compiled, scene, stop_time, t, method, exact) for t in near] for method in METHODS]
@@ -115,37 +122,53 @@ def runs(scene: str, tolerances: list[float], around: int) -> Iterator[list[Run]
 def verdict(rosenbrock: Run, idas: Run, auto: Run) -> str:
     """What "auto" misses: at most twice the error of IDAS, at most a third more time than the better one."""
     fits = [run.seconds for run in (rosenbrock, idas) if run.error <= 2 * idas.error]
-    worse = [] if auto.error <= 2 * idas.error else [f"error {auto.error / idas.error:.2g} times"]
+    worse = [] if auto.error <= 2 * idas.error else [f"error {np.divide(auto.error, idas.error):.2g} times"]
     ratio = auto.seconds / min(fits, default=np.nan)
     return ", ".join([*worse, *([f"time {ratio:.2g} times"] if ratio > 4 / 3 else [])])
 
 
+def short(number: float, form: str) -> str:
+    """A number without the zeros of its exponent."""
+    return re.sub(r"e([+-])0?", lambda e: "e-" if e[1] == "-" else "e", f"{number:{form}}")
+
+
+def cells(row: list[Run]) -> list[str]:
+    """Cells of the runs of a scene at a tolerance."""
+    entries = [
+        "-" if np.isnan(run.error) else f"{short(run.error, '.1e')}, {1e3 * run.seconds:.0f} ({run.steps:,})"
+        for run in row
+    ]
+    damped = " damped" if row[-1].used.endswith("damped") else ""
+    return [row[0].scene, short(row[0].tolerance, ".0e"), *entries[:-1], entries[-1] + damped, verdict(*row)]
+
+
+def page(tolerances: str, rows: list[list[str]], known: dict[str, float]) -> str:
+    """The table as a page of the documentation, each scene named once."""
+    repeated = [["", *row[1:]] if k and row[0] == rows[k - 1][0] else row for k, row in enumerate(rows)]
+    lines = [f"| {' | '.join(row)} |" for row in (HEAD, ["---"] * len(HEAD), *repeated)]
+    uncertain = ", ".join(f"{scene} {short(value, '.1e')}" for scene, value in known.items() if not np.isnan(value))
+    last = f"Uncertainty of the references (difference from IDAS at 1e-9): {uncertain}."
+    return "\n".join([INTRODUCTION.format(tolerances=tolerances), *lines, "", last]) + "\n"
+
+
 def main() -> None:
-    """Print the table."""
+    """Print the table, or write it."""
     warnings.simplefilter("ignore")
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", default=list(models.SCENES))
     parser.add_argument("--tolerances", default="1e-3,1e-5,1e-7")
     parser.add_argument("--around", type=int, default=1, help="medians over so many tolerances beside each")
-    parser.add_argument("--markdown", action="store_true", help="table in Markdown")
+    parser.add_argument("--write", action="store_true", help=f"write {PAGE}")
     given = parser.parse_args()
-    head = (
-        "scene",
-        "tolerance",
-        *(f"{what} {m}" for m in METHODS for what in ("error", "ms", "steps")),
-        "taken",
-        "misses",
-    )
-    table = Table(*head, box=box.MARKDOWN if given.markdown else box.HEAVY_HEAD)
-    cells = missed = 0
+    known: dict[str, float] = {}
+    rows = []
     for scene in given.scenes:
-        for row in runs(scene, [float(t) for t in given.tolerances.split(",")], given.around):
-            missing = verdict(*row)
-            cells, missed = cells + 1, missed + bool(missing)
-            values = [text for r in row for text in (f"{r.error:.1e}", f"{1e3 * r.seconds:.0f}", f"{r.steps:,}")]
-            table.add_row(scene, f"{row[0].tolerance:g}", *values, row[-1].used, missing)
-    Console(width=220).print(table, LEGEND)
-    print(f"{cells - missed} of {cells} cells keep what auto promises")
+        for row in runs(scene, [float(t) for t in given.tolerances.split(",")], given.around, known):
+            rows.append(cells(row))
+            print(*rows[-1], sep=" | ", flush=True)
+    print(f"{sum(not row[-1] for row in rows)} of {len(rows)} cells keep what auto promises")
+    if given.write:
+        PAGE.write_text(page(given.tolerances, rows, known))
 
 
 if __name__ == "__main__":
