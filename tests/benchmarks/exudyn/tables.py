@@ -11,6 +11,7 @@ from rich.table import Table
 from tests.benchmarks.exudyn.compare import Point, front, quickest
 from tests.benchmarks.exudyn.scenes import Scene
 
+Tabulated = tuple[list[str], Iterable[list[str]]]
 LEVELS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5)
 
 
@@ -48,36 +49,47 @@ def equal_rows(compared: Compared) -> Iterable[list[str]]:
             yield [output, f"{error:g}", *times, *ratios, f"{ours.curve}, {ours.setting}" if ours else ""]
 
 
-def show(compared: Compared, markdown: bool) -> None:
+def _equal(compared: Compared) -> Tabulated:
+    goal = f"Exudyn / ours (goal {compared.scene.goal:g})"
+    return ["output", "error", "ms, ours", "again", "ms, Exudyn", goal, "again", "ours"], list(equal_rows(compared))
+
+
+def _apart(compared: Compared) -> str:
+    return ", ".join(f"{name} {value:.1e}" for name, value in compared.apart.items())
+
+
+def show(compared: Compared) -> None:
     """Print both tables."""
     scene = compared.scene
-    apart = ", ".join(f"{name} {value:.1e}" for name, value in compared.apart.items())
-    title = f"{scene.name}: the two references differ by {apart} of the range"
     errors = [f"error of {name}" for name in scene.outputs]
     points = ["", "tolerance or step", "ms", "again", *errors, "steps", "factorisations", "evaluations", "method"]
-    equal = [
-        "output",
-        "error",
-        "ms, ours",
-        "again",
-        "ms, Exudyn",
-        f"Exudyn / ours (goal {scene.goal:g})",
-        "again",
-        "ours",
-    ]
-    print_tables(title, [(points, best_rows(compared)), (equal, equal_rows(compared))], markdown)
+    title = f"{scene.name}: the two references differ by {_apart(compared)} of the range"
+    print_tables(title, [(points, best_rows(compared)), _equal(compared)])
 
 
-def print_tables(title: str, tables: Iterable[tuple[list[str], Iterable[list[str]]]], markdown: bool) -> None:
+def print_tables(title: str, tables: Iterable[Tabulated]) -> None:
     """Print tables, each of its columns and rows, below a title."""
     console = Console(width=180)
     console.print(title + "\n", highlight=False, markup=False)
     for columns, rows in tables:
-        if markdown:
-            lines = ["| " + " | ".join(row) + " |" for row in (columns, ["---"] * len(columns), *rows)]
-            print("\n".join(lines) + "\n")
-        else:
-            table = Table(*columns)
-            for row in rows:
-                table.add_row(*row)
-            console.print(table)
+        table = Table(*columns)
+        for row in rows:
+            table.add_row(*row)
+        console.print(table)
+
+
+def section(compared: Compared) -> str:
+    """Times at equal error as a section of the page."""
+    text = f"The two references differ by {_apart(compared)} of the range."
+    return f"{heading(compared.scene.name)}\n\n{text}\n\n{markdown(_equal(compared))}"
+
+
+def heading(name: str) -> str:
+    """The heading of a section."""
+    return f"## {name[:1].upper()}{name[1:]}"
+
+
+def markdown(table: Tabulated) -> str:
+    """A table in Markdown."""
+    columns, rows = table
+    return "\n".join("| " + " | ".join(row) + " |" for row in (columns, ["---"] * len(columns), *rows))
