@@ -122,7 +122,8 @@ def runs(scene: str, tolerances: list[float], around: int, known: dict[str, floa
 def verdict(rosenbrock: Run, idas: Run, auto: Run) -> str:
     """What "auto" misses: at most twice the error of IDAS, at most a third more time than the better one."""
     fits = [run.seconds for run in (rosenbrock, idas) if run.error <= 2 * idas.error]
-    worse = [] if auto.error <= 2 * idas.error else [f"error {np.divide(auto.error, idas.error):.2g} times"]
+    # An error of 0 is that of the reference itself, with which nothing compares.
+    worse = [f"error {auto.error / idas.error:.2g} times"] if auto.error > 2 * idas.error > 0 else []
     ratio = auto.seconds / min(fits, default=np.nan)
     return ", ".join([*worse, *([f"time {ratio:.2g} times"] if ratio > 4 / 3 else [])])
 

@@ -50,7 +50,15 @@ class Formulation:
     Examples
     --------
     >>> Formulation("volumes", {"formulation": "substructured"}, {"volumes": (5, 10, 20)}, exact=True)  # doctest: +SKIP
-    >>> Formulation("leapfrog", run=leapfrog, dt=(1e-3, 1e-4))  # doctest: +SKIP
+
+    A solver of one's own for der(charge) == -rate * charge, whose outputs lie at ends of steps; `result_of` computes all other
+    variables from the states:
+
+    >>> def euler(model, stop_time, times, dt):
+    ...     steps = round(times[1] / dt)
+    ...     charge = (1 - model.value("rate") * dt) ** (steps * np.arange(len(times)))
+    ...     return ac.result_of(times, {"charge": charge}, model=model, steps=steps * (len(times) - 1))
+    >>> Formulation("Euler", run=euler, dt=(1e-3, 1e-4))  # doctest: +SKIP
     """
 
     name: str
