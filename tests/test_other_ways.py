@@ -13,7 +13,7 @@ HERE = Path(__file__).parent
 DEFAULTS = "test_defaults_break_where_the_torque_does_and_cost_little"
 METHODS = {
     "idas": DEFAULTS,
-    # The core alone does not pass the flat position of n-four-bar: it refuses it, see docs/background/loops.md.
+    # The core alone does not pass the flat position of n-four-bar: it refuses it.
     "rosenbrock": f"{DEFAULTS} or n-four-bar",
 }
 pytestmark = pytest.mark.slow

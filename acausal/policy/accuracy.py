@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Defaults:
     """Defaults and limits of a simulation."""
 
-    # As in Modelica tools; docs/background/accuracy.md has the errors of the scenes.
+    # As in Modelica tools; docs/background/accuracy-tables.md has the errors of the scenes.
     tolerance: float = 1e-6
     # Resolution of a plot.
     intervals: int = 400
@@ -70,7 +70,7 @@ class Study:
     # Refinements of a reference, and its smallest tolerance.
     rounds: int = 6
     least: float = 1e-12
-    # Largest usual error of a run in tolerances; docs/background/methods.md has the errors of the scenes.
+    # Largest usual error of a run in tolerances; docs/background/methods-tables.md has the errors of the scenes.
     most: float = 100.0
     # Ratio of successive tolerances of a reference, and of the tolerances of a run and of the one that estimates its error.
     tighter: float = 10.0
