@@ -7,7 +7,13 @@ from pathlib import Path
 import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
-PROGRAMS = {"start/tutorial.md": 8, "from/signs.md": 3}  # pages, and how many outputs they show
+# Pages, and how many outputs they show.
+PROGRAMS = {
+    "start/tutorial.md": 8,
+    "from/signs.md": 3,
+    "how-to/find-a-mistake.md": 1,
+    "how-to/set-start-values.md": 1,
+}
 NUMBER = re.compile(r"-?\d+\.\d+")
 
 
@@ -30,7 +36,9 @@ def test_a_page_prints_what_it_shows(
     page: str, outputs: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    file, names, code, printed, compared = tmp_path / "crane.py", {"__name__": "crane"}, "", "", 0
+    name = re.search(r"save it as `(\w+)\.py`|file, `(\w+)\.py`", (DOCS / page).read_text())
+    module = name[1] or name[2] if name else "page"
+    file, names, code, printed, compared = tmp_path / f"{module}.py", {"__name__": module}, "", "", 0
     for language, text in blocks(page):
         if language == "python":
             # One file that grows, so that messages name its lines.
