@@ -10,7 +10,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 # Pages, and how many outputs they show.
 PROGRAMS = {
     "start/tutorial.md": 8,
-    "from/signs.md": 3,
+    "from/signs.md": 2,
     "how-to/find-a-mistake.md": 1,
     "how-to/set-start-values.md": 1,
 }
