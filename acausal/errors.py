@@ -6,6 +6,7 @@ import os
 import sys
 import traceback
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 PACKAGE = str(Path(__file__).parent) + os.sep
@@ -33,6 +34,15 @@ class AcausalError(Exception):
     def __str__(self) -> str:
         where = self.place or self.line
         return f"{where}: {super().__str__()}" if where else super().__str__()
+
+    @property
+    def _render_traceback_(self) -> Callable[[], list[str]]:
+        """The function by which IPython shows the error, as scripts do: without the lines of libraries."""
+        from acausal.tracebacks import is_short, user_traceback
+
+        if not is_short():
+            raise AttributeError("full tracebacks are those of IPython")
+        return lambda: user_traceback(self, self.__traceback__).splitlines()
 
 
 class DeclarationError(AcausalError):

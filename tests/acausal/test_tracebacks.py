@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -57,10 +58,27 @@ def test_other_errors_stay_as_they_are(tmp_path):
     assert "ZeroDivisionError" in text
 
 
-def test_a_notebook_shows_the_same():
-    try:
+def test_a_notebook_shows_the_same(monkeypatch):
+    with pytest.raises(ac.AcausalError) as caught:
         ac.simulate(3, stop_time=1)  # type: ignore[arg-type]
-    except ac.AcausalError as error:
-        text = user_traceback(error, error.__traceback__)
+    text = "\n".join(caught.value._render_traceback_())
+    assert text == user_traceback(caught.value, caught.value.__traceback__).rstrip()
     assert text.count("  File ") == 1
     assert __file__ in text
+    monkeypatch.setenv(SETTING, "full")
+    assert not hasattr(caught.value, "_render_traceback_")
+
+
+def test_a_notebook_names_cells(monkeypatch):
+    file = "/tmp/ipykernel_1/2.py"
+    source = "def f():\n    ac.simulate(3, stop_time=1)\nf()"
+    with pytest.raises(ac.AcausalError) as caught:
+        exec(compile(source, file, "exec"), {"ac": ac})
+    shell = SimpleNamespace(
+        compile=SimpleNamespace(format_code_name=lambda name: ("Cell", "In[7]") if name == file else None)
+    )
+    python = SimpleNamespace(get_ipython=lambda: shell, __file__="/site/IPython/__init__.py")
+    monkeypatch.setitem(sys.modules, "IPython", python)
+    text = "\n".join(caught.value._render_traceback_())
+    assert "  Cell In[7], line 3\n  Cell In[7], line 2, in f\n" in text
+    assert file not in text
