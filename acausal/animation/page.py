@@ -1,4 +1,4 @@
-"""Build the page that plays a document: one self-contained HTML text that needs no network."""
+"""Build the page that plays a document: one self-contained HTML text that needs no network; or its parts."""
 
 from __future__ import annotations
 
@@ -42,10 +42,21 @@ def html(document: dict[str, Any]) -> str:
     DeclarationError
         If the package that contains three.js is not installed.
     """
-    three, viewer, style = three_js(), script(), part("viewer.css")
+    values = content(document)
+    return "".join(values[piece] if k % 2 else piece for k, piece in enumerate(player()))
+
+
+def content(document: dict[str, Any]) -> dict[str, str]:
+    """Return what a page holds of its document, as HTML by name: `title` and `document`."""
     # In JSON "<" occurs only within strings, where its escape is equivalent: no tag can begin or end.
     data = json.dumps(document, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
-    fields = {
+    return {"title": escape(str(document.get("title") or "animation")), "document": data}
+
+
+def player() -> list[str]:
+    """Return the page of any document: pieces of HTML, every second one a name in `content`."""
+    three, viewer, style = three_js(), script(), part("viewer.css")
+    fixed = {
         "policy": "; ".join(
             (
                 "default-src 'none'",
@@ -55,15 +66,18 @@ def html(document: dict[str, Any]) -> str:
                 "form-action 'none'",
             )
         ),
-        "title": escape(str(document.get("title") or "animation")),
         "style": style,
-        "document": data,
         "three": three,
         "viewer": viewer,
     }
-    first, *pieces = part("index.html").split("@")
     # The template contains "@" only around the names of fields. Inserted text is not searched again.
-    return first + "".join(fields[piece] if k % 2 == 0 else piece for k, piece in enumerate(pieces))
+    pieces = [""]
+    for k, piece in enumerate(part("index.html").split("@")):
+        if k % 2 and piece not in fixed:
+            pieces += [piece, ""]
+        else:
+            pieces[-1] += fixed[piece] if k % 2 else piece
+    return pieces
 
 
 def script() -> str:

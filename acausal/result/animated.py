@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -14,7 +13,7 @@ from acausal.animation.document import document_of, scenes
 from acausal.animation.frames import FRAMES, select_frames
 from acausal.animation.page import html
 from acausal.animation.scene import Plot, Run, shapes_of
-from acausal.errors import AcausalError, DeclarationError, ExportError
+from acausal.errors import DeclarationError, ExportError
 from acausal.language.component import Component
 from acausal.language.value_checks import shown as code
 from acausal.result.files import check_writable, shown_name, whole
@@ -113,24 +112,6 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
     """
     if isinstance(tree, Component):
         shapes_of([tree], values)
-
-
-def in_notebook(result: Animatable) -> str | None:
-    """Return the animation as a sandboxed frame for a notebook; None if nothing is visible, so that it shows text.
-
-    Parameters
-    ----------
-    result : Result
-        The result.
-    """
-    try:
-        page = html(document_of(scenes({result.title: run_of(result)})))
-    except AcausalError:
-        return None
-    return (
-        '<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 600px; border: 0" '
-        f'srcdoc="{escape(page)}"></iframe>'
-    )
 
 
 def run_of(result: Animatable, options: AnimationOptions = DEFAULT) -> Run:

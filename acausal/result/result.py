@@ -267,11 +267,11 @@ class Result:
         write({self.title or self._model: self}, path, AnimationOptions(frames, plots, values, title, deformation))
 
     @exclusive
-    def _repr_html_(self) -> str | None:
-        """Show the animation in a notebook; None if nothing is visible."""
-        from acausal.result.animated import in_notebook
+    def _repr_html_(self) -> str:
+        """Show a summary in a notebook, and the animation if something is visible."""
+        from acausal.result.notebook import result_html
 
-        return in_notebook(self)
+        return result_html(self)
 
     def _columns(self, keys: Iterable[Key]) -> dict[str, np.ndarray]:
         check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])

@@ -340,7 +340,7 @@ def test_nothing_to_be_seen() -> None:
     result = ac.simulate(Silent(x=fixed(1)), stop_time=1, intervals=10)
     with pytest.raises(ac.DeclarationError, match=r"Silent cannot be animated.*shapes\(\)"):
         made(result)
-    assert result._repr_html_() is None
+    assert "<iframe" not in result._repr_html_()
 
 
 def test_part_is_shown_once_however_many_yield_it() -> None:
@@ -405,7 +405,7 @@ def test_results_without_a_model_or_time(machine: ac.Result, tmp_path: Path) -> 
     for result in (loaded, arrays):
         with pytest.raises(ac.DeclarationError, match="has no model"):
             result.animate(tmp_path / "run.html")
-        assert result._repr_html_() is None
+        assert "<iframe" not in result._repr_html_()
     empty = ac.Result(np.empty(0), machine._evaluate, machine.tree, machine.outputs, machine.stats)
     with pytest.raises(ac.DeclarationError, match="is empty"):
         empty.animate(tmp_path / "run.html")
@@ -470,10 +470,3 @@ def test_plots_are_what_is_asked_for(machine: ac.Result) -> None:
     assert columns(run)[run["plots"][2]["column"]] == pytest.approx(machine["ball.frame_a.r_0[1]"], abs=1e-7)
     with pytest.raises(ac.DeclarationError, match=r"hinge\.speed"):
         made(machine, plots=["hinge.speed"])
-
-
-def test_notebooks_show_a_frame_that_may_run_scripts_only(machine: ac.Result) -> None:
-    text = machine._repr_html_()
-    assert text is not None
-    assert text.startswith('<iframe sandbox="allow-scripts allow-downloads"')
-    assert text.count("<") == text.count("</iframe>") + 1
