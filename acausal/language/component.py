@@ -13,12 +13,19 @@ from acausal.language import declare
 from acausal.language import fields as f
 from acausal.language.body import read_body
 from acausal.language.call_arguments import checked_call, declaration_error
+from acausal.language.component_html import component_html
 from acausal.language.docstring import signature, with_fields
 from acausal.language.invalid_settings import refuse_attribute, refuse_value
 from acausal.language.misspelt_fields import SETTINGS
 from acausal.language.path import Path
 from acausal.language.signal import CONNECTING, Signal
-from acausal.language.value_checks import check_value, class_keyword_message, positional_message, refuse_decorator
+from acausal.language.value_checks import (
+    check_value,
+    class_keyword_message,
+    positional_message,
+    refuse_decorator,
+    shown,
+)
 
 
 class _Docstring:
@@ -141,7 +148,13 @@ class Component(f.Template):
         )
 
     def __repr__(self) -> str:
-        return f"{self._path or 'model'} ({type(self).__name__})" if self._is_bound else f"{type(self).__name__}()"
+        if self._is_bound:
+            return f"{self._path or 'model'} ({type(self).__name__})"
+        return shown(self, f"{type(self).__name__}(...)")
+
+    def _repr_html_(self) -> str | None:
+        """Show parts and parameters in a notebook; None for a part of a built model, which shows text."""
+        return None if self._is_bound else component_html(type(self), self._values)
 
     def connections(self) -> Iterator[Any]:
         """Yield connect(), chain(), branch(), root() and potential_root() statements."""

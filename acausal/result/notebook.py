@@ -15,6 +15,7 @@ from typing import Any, Protocol
 from acausal.animation.document import document_of, scenes
 from acausal.animation.page import content, part, player
 from acausal.errors import AcausalError
+from acausal.language.component_html import table_html
 from acausal.result.animated import Animatable, run_of
 from acausal.result.plots import Series
 
@@ -22,7 +23,6 @@ MISSING = (
     "The player of this animation is missing: the output that held it was removed, or the notebook is not trusted. Run this "
     "cell again."
 )
-SHOWN = 12  # outputs in the summary
 _holder: tuple[str, str, str] | None = None  # session, cell and execution of the output that holds the player
 
 
@@ -49,11 +49,8 @@ def result_html(result: Shown) -> str:
     lines += [f"Warning: {text}" for text in stats["doubts"]]
     text = "".join(f"<p>{escape(line)}</p>" for line in lines)
     series = result.series() if time.size and result.outputs else []
-    rows = "".join(
-        f"<tr><td>{escape(s.name)}</td><td>{s.values[-1]:.6g} {escape(s.unit)}</td></tr>" for s in series[:SHOWN]
-    )
-    more = f"<tr><td>... ({len(series)} in all)</td><td></td></tr>" if len(series) > SHOWN else ""
-    table = f"<table><tr><th>output</th><th>at {time[-1]:g} s</th></tr>{rows}{more}</table>" if rows else ""
+    rows = [(s.name, f"{s.values[-1]:.6g} {s.unit}") for s in series]
+    table = table_html(("output", f"at {time[-1]:g} s"), rows) if rows else ""
     return f"{text}{table}{animation_html(result) or ''}"
 
 
