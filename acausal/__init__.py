@@ -202,6 +202,7 @@ __all__ = [
     "part",
     "parts",
     "piecewise",
+    "plot",
     "port",
     "ports",
     "potential_root",
@@ -237,6 +238,7 @@ __all__ = [
 if TYPE_CHECKING:
     from acausal.export import export_dae, export_fmu, load_dae
     from acausal.result.animate_many import animate
+    from acausal.result.plot_many import plot
 
 install()
 
@@ -244,6 +246,7 @@ install()
 _LATER = {
     **dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export"),
     "animate": "acausal.result.animate_many",
+    "plot": "acausal.result.plot_many",
 }
 
 

@@ -57,16 +57,32 @@ def animate(
     --------
     >>> ac.animate({"rigid": a, "elastic": b}, "crank.html")  # doctest: +SKIP
     """
+    write(
+        checked_results(results, 'animate one result with result.animate("run.html")'),
+        path,
+        AnimationOptions(frames, plots, values, title, deformation),
+    )
+
+
+def checked_results(results: Mapping[str, Result], alone: str) -> dict[str, Result]:
+    """Return results by name.
+
+    Parameters
+    ----------
+    results : mapping of str to Result
+        The argument of a function that compares results.
+    alone : str
+        What to do with one result, for the message.
+
+    Raises
+    ------
+    DeclarationError
+        If it is not such a mapping.
+    """
     if isinstance(results, Result):
-        raise DeclarationError(
-            'animate one result with result.animate("run.html"), several with a dictionary, {"rigid": a, "elastic": b}.'
-        )
+        raise DeclarationError(f'{alone}, several with a dictionary, {{"rigid": a, "elastic": b}}.')
     if not isinstance(results, Mapping) or not results or not all(isinstance(r, Result) for r in results.values()):
         raise DeclarationError(
             f'results is a dictionary of results by name, {{"rigid": a, "elastic": b}}, not {shown(results)}.'
         )
-    write(
-        {str(name): result for name, result in results.items()},
-        path,
-        AnimationOptions(frames, plots, values, title, deformation),
-    )
+    return {str(name): result for name, result in results.items()}

@@ -17,7 +17,7 @@ from acausal.locks import exclusive
 from acausal.result.evaluation import read
 from acausal.result.invalid_values import invalid_values
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
-from acausal.result.plots import Series, draw, open_figure, save
+from acausal.result.plots import Series, curves, draw, finish
 from acausal.result.snapshot import Snapshot, take_snapshot
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
@@ -194,13 +194,17 @@ class Result:
 
     @checked_arguments
     @exclusive
-    def plot(self, *keys: Key, path: str | Path | None = None, show: bool | None = None) -> Figure:
-        """Draw the outputs or `keys` over time, one axes for each unit.
+    def plot(
+        self, *keys: Key, x: Key | None = None, path: str | Path | None = None, show: bool | None = None
+    ) -> Figure:
+        """Draw the outputs or `keys` over time or `x`, one axes for each unit.
 
         Parameters
         ----------
         *keys : str, Path or Expr
             Quantities to plot; the outputs if none are given.
+        x : str, Path or Expr, optional
+            A scalar over which they are drawn, such as an angle for a phase plot.
         path : str or Path, optional
             Write the picture there; the suffix determines the format.
         show : bool, optional
@@ -211,12 +215,7 @@ class Result:
         Figure
             A figure of matplotlib, to be changed and saved.
         """
-        figure = draw(self.time, self.series(*keys), self.title)
-        if path is not None:
-            save(figure, path)
-        if show:
-            open_figure(figure, path)
-        return figure
+        return finish(draw(curves(self, keys, x), self.title), path, show)
 
     def _beside(self, key: object) -> bool:
         """Return whether a key names a quantity that is not of the model."""

@@ -9,7 +9,7 @@ import pytest
 from acausal.errors import DeclarationError, ExportError
 from acausal.result import check_picture, check_writable
 from acausal.result.files import whole
-from acausal.result.plots import Series, draw
+from acausal.result.plots import Curve, Series, draw
 from tests.acausal.result.demo import TIME, demo
 
 PNG = b"\x89PNG"
@@ -110,7 +110,7 @@ def test_other_pictures(result, tmp_path):
 
 def test_nothing_to_plot():
     with pytest.raises(DeclarationError, match="there is nothing to plot: the model has no outputs"):
-        draw(TIME, [])
+        draw([])
 
 
 @pytest.mark.parametrize(
@@ -129,5 +129,5 @@ def test_imports_are_late(code, absent):
 def test_small_series_have_axes_of_their_own():
     time = np.linspace(0, 1, 5)
     large, small, still = Series("a", "m", time), Series("b", "m", 1e-3 * time), Series("c", "m", 0 * time)
-    figure = draw(time, [large, small, still])
+    figure = draw([Curve(Series("time", "s", time), y) for y in (large, small, still)])
     assert [[line.get_label() for line in axes.lines] for axes in figure.axes] == [["a", "c"], ["b"]]
