@@ -77,9 +77,9 @@ class Body(MovingBody):
         return self.world.power(self.m, self._centre(), self._velocity())
 
     def shapes(self):
-        """A sphere at the centre of mass, and a thin rod to it."""
+        """A sphere at the centre of mass, and a link to it."""
         if not self.r_CM.sx.is_zero():
-            yield geometry.Span(self.frame_a.r_0, self._centre())
+            yield geometry.Cylinder(pose(self.frame_a), (0, 0, 0), self.r_CM, style="link")
         yield geometry.Sphere(pose(self.frame_a), self.r_CM)
 
     def _centre(self):

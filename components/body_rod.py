@@ -27,7 +27,7 @@ class BodyRod(TwoFrameBody):
 
     def shapes(self):
         """The rod."""
-        yield geometry.Cylinder(pose(self.frame_a), (0, 0, 0), self.r)
+        yield geometry.Cylinder(pose(self.frame_a), (0, 0, 0), self.r, style="link")
 
 
 def _inertia(m: Any, r: Any) -> Any:

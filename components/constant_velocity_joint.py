@@ -54,5 +54,5 @@ class ConstantVelocityJoint(TwoFrames):
 
     def shapes(self):
         """The end of each shaft."""
-        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n))
-        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n))
+        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n), style="pin")
+        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n), style="pin")

@@ -45,6 +45,7 @@ class Cylindrical(TwoFrames):
         yield dot(n, self.frame_b.t) == 0
 
     def shapes(self):
-        """A rail and a pin."""
-        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "rail")
-        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n))
+        """A shaft and a sleeve on it."""
+        n = unit_vector(self.n)
+        yield geometry.Rail(pose(self.frame_a), n, self.frame_b.r_0, "shaft")
+        yield geometry.Axle(pose(self.frame_b), n, style="sleeve")

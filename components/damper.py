@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Scalar, parameter
+from acausal import Scalar, geometry, parameter
 from components.line_force import LineForce
 from components.thermal.heat_loss import HeatLoss
 
@@ -15,6 +15,10 @@ class Damper(HeatLoss, LineForce):
     def law(self):
         """Force proportional to the speed."""
         yield self.f == self.d * self.v
+
+    def shapes(self):
+        """A cylinder with a piston rod."""
+        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "damper")
 
     def loss(self):
         """Power of the force."""

@@ -28,5 +28,5 @@ class Fixed(Component):
         yield frame.z == zero
 
     def shapes(self):
-        """A support point."""
-        yield geometry.Sphere(pose(self.frame_b))
+        """A support."""
+        yield geometry.Axle(pose(self.frame_b), None, style="support")

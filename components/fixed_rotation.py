@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal import DeclarationError, Vector3, branch, cross, parameter, structural
-from components.frame import TwoFrames, move
+from acausal import DeclarationError, Vector3, branch, cross, geometry, parameter, structural
+from components.frame import TwoFrames, move, pose
 from components.orientation import (
     axes_rotations,
     axis_rotation,
@@ -64,6 +64,10 @@ class FixedRotation(TwoFrames):
         yield from move(a, b, self.r, R)
         yield a.f + f_b == (0, 0, 0)
         yield a.t + t_b + cross(self.r, f_b) == (0, 0, 0)
+
+    def shapes(self):
+        """A link."""
+        yield geometry.Cylinder(pose(self.frame_a), (0, 0, 0), self.r, style="link")
 
     def _matrix(self) -> np.ndarray:
         if self.rotation_type == "two_axes":

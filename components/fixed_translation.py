@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from acausal import Vector3, branch, cross, parameter
-from components.frame import TwoFrames, move
+from acausal import Vector3, branch, cross, geometry, parameter
+from components.frame import TwoFrames, move, pose
 from components.orientation import null_rotation
 
 
@@ -20,3 +20,7 @@ class FixedTranslation(TwoFrames):
         yield from move(a, b, self.r, null_rotation())
         yield a.f + b.f == (0, 0, 0)
         yield a.t + b.t + cross(self.r, b.f) == (0, 0, 0)
+
+    def shapes(self):
+        """A link."""
+        yield geometry.Cylinder(pose(self.frame_a), (0, 0, 0), self.r, style="link")

@@ -4,9 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Component, Scalar, Vector3, chain, connect, der, parameter, port, structural, variable
+from acausal import (
+    PREFER,
+    Component,
+    Scalar,
+    Vector3,
+    chain,
+    connect,
+    der,
+    geometry,
+    parameter,
+    port,
+    structural,
+    variable,
+)
 from components.fixed_translation import FixedTranslation
-from components.frame import Frame
+from components.frame import Frame, pose
+from components.orientation import unit_vector
 from components.revolute import Revolute
 from components.rotational.ideal_gear import IdealGear
 
@@ -47,3 +61,9 @@ class GearConstraint(Component):
         yield self.phi_b == self.actuated_revolute_b.phi
         yield self.w_b == der(self.phi_b)
         yield self.a_b == der(self.w_b)
+
+    def shapes(self):
+        """The parts, and two gears."""
+        yield from super().shapes()
+        for frame, n in ((self.frame_a, self.n_a), (self.frame_b, self.n_b)):
+            yield geometry.Axle(pose(frame), unit_vector(n), style="gear")

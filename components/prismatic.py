@@ -7,7 +7,7 @@ from typing import Any
 from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, part, quantity, structural, variable
 from components.driven import DrivenByRod
 from components.driven_joint import DrivenJoint
-from components.frame import move
+from components.frame import move, pose
 from components.joint_friction import PrismaticFriction
 from components.orientation import null_rotation, resolve1, unit_vector
 
@@ -59,11 +59,12 @@ class Prismatic(DrivenByRod, DrivenJoint):
             yield self.f == 0
 
     def shapes(self):
-        """A rail, and the force of a drive."""
-        a, b = self.frame_a, self.frame_b
-        yield geometry.Span(a.r_0, b.r_0, "rail")
+        """A rail, a block on it, and the force of a drive."""
+        a, b, n = self.frame_a, self.frame_b, unit_vector(self.n)
+        yield geometry.Rail(pose(a), n, b.r_0)
+        yield geometry.Axle(pose(b), n, style="block")
         if self.use_axis_flange:
-            yield geometry.Arrow(b.r_0, resolve1(a.R, unit_vector(self.n) * self.f))
+            yield geometry.Arrow(b.r_0, resolve1(a.R, n * self.f))
 
     def stored_energy(self):
         """Elastic energy of the drive."""

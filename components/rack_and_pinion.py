@@ -13,13 +13,14 @@ from acausal import (
     chain,
     connect,
     der,
+    geometry,
     parameter,
     port,
     structural,
     variable,
 )
 from components.fixed_translation import FixedTranslation
-from components.frame import Frame
+from components.frame import Frame, pose
 from components.orientation import unit_vector
 from components.prismatic import Prismatic
 from components.revolute import Revolute
@@ -79,3 +80,8 @@ class RackAndPinion(Component):
         yield self.phi == self.revolute.phi
         yield self.w == der(self.phi)
         yield self.a == der(self.w)
+
+    def shapes(self):
+        """The parts, and the pinion."""
+        yield from super().shapes()
+        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n_a), diameter=2 * self.radius, style="gear")

@@ -128,9 +128,9 @@ class RollingWheelJoint(Component):
         )
 
     def shapes(self):
-        """The wheel, with a width of a tenth of its radius."""
-        half = self.radius / 20
-        yield geometry.Cylinder(pose(self.frame_a), (0, -half, 0), (0, half, 0), 2 * self.radius)
+        """The wheel, with a width of a quarter of its radius."""
+        half = self.radius / 8
+        yield geometry.Cylinder(pose(self.frame_a), (0, -half, 0), (0, half, 0), 2 * self.radius, "wheel")
 
     def _cos_camber(self) -> Expr:
         """|u x e|, the cosine of the camber angle."""

@@ -98,7 +98,7 @@ class Rope(HeatLoss, TwoFrames):
     def shapes(self):
         """The straight segments."""
         for one, other in pairwise(self._frames()):
-            yield geometry.Span(one.r_0, other.r_0)
+            yield geometry.Span(one.r_0, other.r_0, "rope")
 
     def stored_energy(self):
         """Elastic energy."""

@@ -52,5 +52,5 @@ class Rotor1D(TwoFlanges):
         return self.J * self.w * (self.w / 2 + dot(unit_vector(self.n), self.frame_a.R.w))
 
     def shapes(self):
-        """A pin along the axis."""
-        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n))
+        """A rotor."""
+        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n), style="rotor")

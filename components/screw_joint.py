@@ -38,7 +38,8 @@ class ScrewJoint(Revolute):
         yield from self.drive()
 
     def shapes(self):
-        """A rail, a pin, and the torque of a drive."""
-        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "rail")
-        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n))
+        """A screw, a nut on it, and the torque of a drive."""
+        n = unit_vector(self.n)
+        yield geometry.Rail(pose(self.frame_a), n, self.frame_b.r_0, "screw")
+        yield geometry.Axle(pose(self.frame_b), n, style="block")
         yield from self.drive_arrow()

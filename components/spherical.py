@@ -59,7 +59,7 @@ class Spherical(TwoFrames):
 
     def shapes(self):
         """A ball."""
-        yield geometry.Sphere(pose(self.frame_a))
+        yield geometry.Axle(pose(self.frame_a), (0, 0, 1), style="ball")
 
     def initial_equations(self):
         if self.angles_fixed:

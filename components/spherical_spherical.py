@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from acausal import Expr, Scalar, as_expr, der, dot, geometry, outer, parameter, structural, variable
-from components.frame import TwoFrames
+from components.frame import TwoFrames, pose
 from components.orientation import resolve1, resolve2
 from components.world import World
 
@@ -71,8 +71,10 @@ class SphericalSpherical(TwoFrames):
         return self.world.power(self.m, self._middle(), self._velocity())
 
     def shapes(self):
-        """The rod."""
+        """The rod between two balls."""
         yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0)
+        for frame in (self.frame_a, self.frame_b):
+            yield geometry.Axle(pose(frame), (0, 0, 1), style="ball")
 
     def _middle(self) -> Expr:
         return (self.frame_a.r_0 + self.frame_b.r_0) / 2

@@ -21,7 +21,8 @@ class SpringDamperParallel(HeatLoss, LineForce):
         yield self.f == self.c * (self.s - self.s_unstretched) + self.d * self.v
 
     def shapes(self):
-        """A coil."""
+        """A coil about a damper."""
+        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "damper")
         yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
 
     def stored_energy(self):

@@ -23,8 +23,10 @@ class SpringDamperSeries(HeatLoss, LineForce):
         yield self.d * der(self.s_damper) == self.f
 
     def shapes(self):
-        """A coil."""
-        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
+        """A damper and a coil, each half of the line."""
+        middle = (self.frame_a.r_0 + self.frame_b.r_0) / 2
+        yield geometry.Span(self.frame_a.r_0, middle, "damper")
+        yield geometry.Span(middle, self.frame_b.r_0, "coil")
 
     def stored_energy(self):
         """Elastic energy."""

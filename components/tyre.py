@@ -256,5 +256,5 @@ class Tyre(HeatLoss):
     def shapes(self):
         """The wheel, and the force on it."""
         n, e_x, e_y = unit_vector(self.n), *self._directions()
-        yield geometry.Cylinder(pose(self.frame_a), -n * self.R_0 / 4, n * self.R_0 / 4, diameter=2 * self.R_0)
+        yield geometry.Cylinder(pose(self.frame_a), -n * self.R_0 / 4, n * self.R_0 / 4, 2 * self.R_0, "wheel")
         yield geometry.Arrow(self.frame_a.r_0 + self.arm, self.f_x * e_x + self.f_y * e_y + self.f_z * self.e_z)

@@ -22,7 +22,7 @@ from acausal import (
     structural,
     variable,
 )
-from components.frame import Frame, TwoFrames, move
+from components.frame import Frame, TwoFrames, move, pose
 from components.orientation import (
     RelativeOrientation,
     norm,
@@ -109,5 +109,7 @@ class UniversalSpherical(TwoFrames):
         )
 
     def shapes(self):
-        """The rod."""
+        """The rod, with a pin at one end and a ball at the other."""
         yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0)
+        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n1_a), style="pin")
+        yield geometry.Axle(pose(self.frame_b), (0, 0, 1), style="ball")

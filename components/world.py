@@ -11,6 +11,7 @@ from acausal import (
     DeclarationError,
     Scalar,
     as_expr,
+    connected,
     dot,
     effect,
     geometry,
@@ -20,7 +21,7 @@ from acausal import (
     sqrt,
     structural,
 )
-from components.frame import Frame
+from components.frame import Frame, pose
 from components.orientation import unit_vector
 
 
@@ -95,8 +96,10 @@ class World(Component):
         return 0.0 if known else m * dot(self.acceleration(r), v)
 
     def shapes(self):
-        """The ground, normal to uniform gravity."""
+        """The ground, normal to uniform gravity, and a support if a part is connected."""
         yield geometry.Ground(-unit_vector(self.n) if self.gravity == "uniform" else None)
+        if connected(self.frame_b):
+            yield geometry.Axle(pose(self.frame_b), None, style="support")
 
 
 def require_direction(component: Any, vector: Any, name: str) -> None:

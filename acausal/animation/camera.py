@@ -11,7 +11,7 @@ FLAT = 0.2
 # View of other scenes, from the right and above, rad.
 AZIMUTH, ELEVATION = 0.6, 0.4
 LIGHT = np.array([-0.4, 0.6, 0.7]) / np.linalg.norm([-0.4, 0.6, 0.7])
-DARKEST = 0.5  # brightness of a face that is turned away from the light, relative to a lit one
+DARKEST = 0.6  # brightness of a face that is turned away from the light, relative to a lit one
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,14 @@ class PartShape:
         Name of the part's class.
     shape : Shape
         Geometry.
+    colour : str, optional
+        Colour "#rrggbb", once the shape is evaluated.
     """
 
     path: str
     kind: str
     shape: Any
+    colour: str | None = None
 
 
 def collect(component: Component) -> list[PartShape]:
@@ -75,9 +78,9 @@ def call_user_code(function: Callable[[], Any], path: str, kind: str) -> Any:
 
 def _check_words(component: Component, shape: Any) -> None:
     """Raise an error for an unknown style, quantity or profile."""
-    for name, known in (("style", STYLES), ("quantity", QUANTITIES), ("profile", PROFILES)):
-        word = getattr(shape, name, known[0])
-        if word not in known:
+    for name, known in (("style", STYLES.get(type(shape), ())), ("quantity", QUANTITIES), ("profile", PROFILES)):
+        word = getattr(shape, name, None)
+        if word is not None and word not in known:
             allowed = ", ".join(map(repr, known))
             raise DeclarationError(
                 f"`{name}` of the {type(shape).__name__} of {component!r} is {word!r}, not one of {allowed}."

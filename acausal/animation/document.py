@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 from urllib.parse import urlencode
 
@@ -11,6 +11,7 @@ import numpy as np
 from acausal.animation import geometry as g
 from acausal.animation.collect import PartShape
 from acausal.animation.columns import Columns, encode
+from acausal.animation.looks import LOOKS
 from acausal.animation.rotations import quaternions, rotation_angles
 from acausal.animation.scene import ALL, Run, Scene, chord_fractions, scene_of, shapes_of
 from acausal.errors import DeclarationError, caution
@@ -74,8 +75,21 @@ def document_of(
     return {
         "version": VERSION,
         "title": title or ", ".join(titles),
+        "looks": looks(one.shape for scene in evaluated.values() for one in scene.shapes),
         "start": urlencode(start | ({"x": f"{deformation:g}"} if deformation != 1 else {})),
         "runs": [_Writer(name, scene).document() for name, scene in evaluated.items()],
+    }
+
+
+def looks(shapes: Iterable[Any]) -> dict[str, Any]:
+    """Return the layers of all styles of shapes, by style."""
+    styles = sorted({shape.style for shape in shapes if hasattr(shape, "style")} - {"coil"})
+    return {
+        style: [
+            {"rows": layer.rows, "color": layer.colour, "sides": layer.sides, "notch": layer.notch}
+            for layer in LOOKS[style]
+        ]
+        for style in styles
     }
 
 
@@ -98,7 +112,8 @@ class _Writer:
         for one in scene.shapes:
             part = parts.setdefault((one.path, one.kind), len(parts))
             kind = type(one.shape)
-            shapes.append({"kind": kind.__name__.lower(), "part": part, "color": None} | WRITE[kind](self, one))
+            known = {"kind": kind.__name__.lower(), "part": part, "color": one.colour}
+            shapes.append(known | WRITE[kind](self, one))
         if self.fastest[0] > LARGEST_TURN:
             caution(
                 f"{self.fastest[1] or 'the model'} turns by up to {self.fastest[0]:.2g} rad from one frame to the next; the "
@@ -159,7 +174,11 @@ class _Writer:
     def cylinder(self, one: PartShape) -> dict[str, Any]:
         """Return the fields of a cylinder, with its ends as `from` and `to`."""
         s = one.shape
-        return self._rigid(one, diameter=s.diameter) | {"from": _plain(s.start), "to": _plain(s.end)}
+        return self._rigid(one, diameter=s.diameter) | {
+            "from": _plain(s.start),
+            "to": _plain(s.end),
+            "style": s.style,
+        }
 
     def sphere(self, one: PartShape) -> dict[str, Any]:
         """Return the fields of a sphere."""
@@ -169,7 +188,8 @@ class _Writer:
         """Return the fields of an axle, with its axis normalised."""
         s = one.shape
         axis = s.axis / np.linalg.norm(s.axis)
-        return self._rigid(one, center=np.zeros(3), axis=axis, length=s.length, diameter=s.diameter)
+        found = self._rigid(one, center=np.zeros(3), axis=axis, length=s.length, diameter=s.diameter)
+        return found | {"style": s.style}
 
     def span(self, one: PartShape) -> dict[str, Any]:
         """Return the fields of a span."""
@@ -180,6 +200,10 @@ class _Writer:
             "style": s.style,
             "diameter": float(s.diameter),
         }
+
+    def trail(self, one: PartShape) -> dict[str, Any]:
+        """Return the fields of a trail."""
+        return {"at": self.positions(one.shape.at)}
 
     def arrow(self, one: PartShape) -> dict[str, Any]:
         """Return the fields of an arrow; the page scales its length."""
@@ -228,6 +252,7 @@ WRITE: dict[type, Callable[[_Writer, PartShape], dict[str, Any]]] = {
     g.Sphere: _Writer.sphere,
     g.Axle: _Writer.axle,
     g.Span: _Writer.span,
+    g.Trail: _Writer.trail,
     g.Arrow: _Writer.arrow,
     g.Curve: _Writer.curve,
     g.Mesh: _Writer.mesh,

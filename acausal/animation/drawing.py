@@ -10,16 +10,17 @@ import numpy as np
 
 from acausal.animation import geometry as g
 from acausal.animation.camera import Camera, horizontal
+from acausal.animation.colours import ARROWS
+from acausal.animation.looks import LOOKS
 from acausal.animation.scene import Scene, corners, in_world
 from acausal.animation.tube import PIECES, half_widths, sections
+from acausal.animation.turned import faces, normal_to, rings
 
-PALETTE = ("#3b6fd1", "#e08a3c", "#2a9d78", "#d6556b", "#a05fc9", "#3aa7b5", "#a58b2d", "#7d6ee0")
-DARK, ROD, COIL = "#4a5260", "#8a93a3", "#b9772a"
-ARROWS = {"force": "#d32f2f", "torque": "#8e24aa"}
 GRID = "#d9dee6"
 ARROW = 0.25  # length of the longest arrow, relative to the size of the scene
 LINES = 8  # grid spacings within the diagonal of the scene
 SIDES, TURNS = 32, 9  # corners of a circle, turns of a coil
+TRAIL = 0.003  # width of a trail, relative to the size of the scene
 
 
 @dataclass(frozen=True)
@@ -61,10 +62,6 @@ class Drawing:
     ) -> None:
         self.scene, self.view, self.colours, self.by = scene, view, colours, by
         self.deformation = deformation
-        paths = dict.fromkeys(
-            one.path for one in scene.shapes if isinstance(one.shape, g.Box | g.Cylinder | g.Sphere | g.Curve | g.Mesh)
-        )
-        self.colour = {path: rgb(PALETTE[k % len(PALETTE)]) for k, path in enumerate(paths)}
         self.longest = {kind: self._longest(kind) for kind in ARROWS}
 
     def _longest(self, kind: str) -> float:
@@ -78,7 +75,9 @@ class Drawing:
     def frame(self, k: int) -> list[Polygon]:
         """Return the polygons of frame k, without the ground."""
         found = [
-            p for one in self.scene.shapes for p in DRAW[type(one.shape)](self, one.shape, k, self.colour.get(one.path))
+            p
+            for one in self.scene.shapes
+            for p in DRAW[type(one.shape)](self, one.shape, k, rgb(one.colour) if one.colour else None)
         ]
         return sorted(found, key=lambda polygon: polygon.depth)
 
@@ -139,17 +138,12 @@ class Drawing:
         for face, shade in zip(np.asarray(faces)[front], shades[front], strict=True):
             yield Polygon(seen[face, :2], float(np.mean(seen[face, 2])), shade)
 
-    def prism(self, start: np.ndarray, end: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
-        """Yield a cylinder between two points of the world."""
-        along = (end - start) / (np.linalg.norm(end - start) or 1)
-        one = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
-        one /= np.linalg.norm(one) or 1
-        ring = radius * _circle() @ np.array([one, np.cross(along, one)])
-        points = np.concatenate([start + ring, end + ring])
-        k = np.arange(SIDES)
-        after = (k + 1) % SIDES
-        yield from self.faces(points, np.stack([k, after, after + SIDES, k + SIDES], axis=1), colour)
-        yield from self.faces(points, np.array([k[::-1], k + SIDES]), colour)
+    def turned(self, ends: np.ndarray, side: np.ndarray, style: str, diameter: float, colour: np.ndarray) -> Pieces:
+        """Yield the layers of a solid of revolution between two points of the world."""
+        for layer in LOOKS[style]:
+            found = list(rings(layer, *ends, side, diameter))
+            own = colour if layer.colour is None else rgb(layer.colour)
+            yield from self.faces(np.concatenate(found), faces(len(found), len(found[0])), own)
 
     def box(self, s: g.Box, k: int, colour: np.ndarray) -> Pieces:
         """Yield the faces of a box."""
@@ -160,9 +154,10 @@ class Drawing:
         yield from self.faces(_at(s.pose, local, k), faces if hand else faces[:, ::-1], colour)
 
     def cylinder(self, s: g.Cylinder, k: int, colour: np.ndarray) -> Pieces:
-        """Yield the side and the ends of a cylinder."""
-        start, end = _at(s.pose, np.array([s.start, s.end]), k)
-        yield from self.prism(start, end, s.diameter / 2, colour)
+        """Yield the layers of a cylinder."""
+        start, end = np.asarray(s.start), np.asarray(s.end)
+        side = normal_to(end - start) @ s.pose.T[k]
+        yield from self.turned(_at(s.pose, np.array([start, end]), k), side, s.style, s.diameter, colour)
 
     def sphere(self, s: g.Sphere, k: int, colour: np.ndarray) -> Pieces:
         """Yield a disc with a highlight."""
@@ -172,25 +167,29 @@ class Drawing:
         spot = center + radius * self.view.axes[2] + 0.25 * radius * (self.view.axes[1] - self.view.axes[0])
         yield self.disc(spot, radius / 2, 0.7 * colour + 0.3)
 
-    def axle(self, s: g.Axle, k: int, _: Any) -> Pieces:
-        """Yield a short cylinder."""
+    def axle(self, s: g.Axle, k: int, colour: np.ndarray) -> Pieces:
+        """Yield the layers of a part of a joint."""
         half = np.asarray(s.axis) / np.linalg.norm(s.axis) * s.length / 2
-        start, end = _at(s.pose, np.array([-half, half]), k)
-        yield from self.prism(start, end, s.diameter / 2, rgb(DARK))
+        side = normal_to(half) @ s.pose.T[k]
+        yield from self.turned(_at(s.pose, np.array([-half, half]), k), side, s.style, s.diameter, colour)
 
-    def span(self, s: g.Span, k: int, _: Any) -> Pieces:
-        """Yield a rod or a coil."""
+    def span(self, s: g.Span, k: int, colour: np.ndarray) -> Pieces:
+        """Yield a rod or another straight body, or a coil."""
         a, b = s.start[k], s.end[k]
         if s.style != "coil":
-            yield from self.tube(np.array([a, b]), s.diameter / 2, rgb(ROD))
+            yield from self.turned(np.array([a, b]), normal_to(b - a), s.style, s.diameter, colour)
             return
         across = np.cross(self.view.axes[2], b - a)
         across = s.diameter / 2 * across / (np.linalg.norm(across) or 1)
         zigzag = np.concatenate([[0, 0], np.tile([1, -1], TURNS), [0, 0]])
         fraction = np.concatenate([[0], np.linspace(0.1, 0.9, 2 * TURNS + 2), [1]])
-        yield from self.tube(a + fraction[:, None] * (b - a) + zigzag[:, None] * across, s.diameter / 10, rgb(COIL))
+        yield from self.tube(a + fraction[:, None] * (b - a) + zigzag[:, None] * across, s.diameter / 12, colour)
 
-    def arrow(self, s: g.Arrow, k: int, _: Any) -> Pieces:
+    def trail(self, s: g.Trail, k: int, colour: np.ndarray) -> Pieces:
+        """Yield the path up to the frame."""
+        yield from self.strip(s.at[: k + 1], TRAIL * self.scene.size, colour)
+
+    def arrow(self, s: g.Arrow, k: int, colour: np.ndarray) -> Pieces:
         """Yield shaft and head of an arrow, scaled by the longest arrow of its quantity."""
         longest = self.longest[s.quantity]
         vector = s.vector[k] * (ARROW * self.scene.size / longest if longest else 0)
@@ -201,7 +200,7 @@ class Drawing:
             along = shaft / length
             across = np.array([-along[1], along[0]])
             neck = max(length - head, 0) * along + at[:2]
-            near, colour = max(at[2], tip[2]) + self.scene.size, rgb(ARROWS[s.quantity])
+            near = max(at[2], tip[2]) + self.scene.size
             wide = head / 8 * across
             yield Polygon(np.array([at[:2] + wide, neck + wide, neck - wide, at[:2] - wide]), near, colour)
             yield Polygon(np.array([neck + head / 3 * across, tip[:2], neck - head / 3 * across]), near, colour)
@@ -233,6 +232,7 @@ DRAW: dict[type, Callable[[Drawing, Any, int, Any], Pieces]] = {
     g.Sphere: Drawing.sphere,
     g.Axle: Drawing.axle,
     g.Span: Drawing.span,
+    g.Trail: Drawing.trail,
     g.Arrow: Drawing.arrow,
     g.Curve: Drawing.curve,
     g.Mesh: Drawing.mesh,

@@ -21,6 +21,8 @@ Size = tuple[Any, ...]
 MOVING: dict[type, dict[str, Size]] = {
     g.Pose: {"r": (3,), "T": (3, 3)},
     g.Span: {"start": (3,), "end": (3,)},
+    g.Rail: {"to": (3,)},
+    g.Trail: {"at": (3,)},
     g.Arrow: {"at": (3,), "vector": (3,)},
     g.Curve: {"points": (None, 3), "tangents": (None, 3), "up": (..., 3)},
     g.Values: {"entries": (None,)},
@@ -32,6 +34,7 @@ FIXED: dict[type, dict[str, Size]] = {
     g.Cylinder: {"start": (3,), "end": (3,), "diameter": ()},
     g.Sphere: {"diameter": ()},
     g.Axle: {"axis": (3,), "length": (), "diameter": ()},
+    g.Rail: {"axis": (3,)},
     g.Span: {"diameter": ()},
     g.Curve: {"section": (..., 2), "rest_points": (None, 3)},
     g.Mesh: {"vertices": (None, 3), "triangles": (None, 3), "modes": (None, None, 3)},
@@ -183,7 +186,7 @@ class _Results:
         if _varies(found[known]):
             raise DeclarationError(
                 f"{name()} varies with time. Only a pose, the center of a Box or Sphere, the ends of a Span and the points of a "
-                "Curve can vary."
+                "Curve, Rail or Trail can vary."
             )
         if not known.all():
             caution(f"{name()} is {not_finite(known, self.time)}; the value of the other frames is taken there.")

@@ -11,10 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
-Style = Literal["coil", "rod", "rail"]
+SolidStyle = Literal["plain", "link", "wheel", "rail", "shaft", "screw"]
+JointStyle = Literal["hinge", "pin", "ball", "block", "sleeve", "gear", "rotor", "support"]
+SpanStyle = Literal["rod", "rail", "coil", "damper", "rope"]
 Quantity = Literal["force", "torque"]
 Profile = Literal["ellipse", "rectangle"]
-STYLES, QUANTITIES, PROFILES = get_args(Style), get_args(Quantity), get_args(Profile)
+QUANTITIES, PROFILES = get_args(Quantity), get_args(Profile)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,12 +54,13 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class Cylinder:
-    """Cylinder between two points (3,), resolved in the pose."""
+    """Solid of revolution between two points (3,), resolved in the pose: a plain cylinder, or in another style."""
 
     pose: Pose
     start: Any
     end: Any
     diameter: Any = None
+    style: SolidStyle = "plain"
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,22 +74,43 @@ class Sphere:
 
 @dataclass(frozen=True, eq=False)
 class Axle:
-    """Pin along an axis (3,), centred in the pose and resolved in it."""
+    """Part of a joint along an axis (3,), centred in the pose and resolved in it.
+
+    An axis of None is that of the joint at the same point, else of the shape that begins there, else vertical.
+    """
 
     pose: Pose
     axis: Any
     length: Any = None
     diameter: Any = None
+    style: JointStyle = "hinge"
+
+
+@dataclass(frozen=True, eq=False)
+class Rail:
+    """Rail through the pose along an axis (3,), resolved in it, as long as the path of a point `to` (3,) of the world."""
+
+    pose: Pose
+    axis: Any
+    to: Any
+    style: SolidStyle = "rail"
 
 
 @dataclass(frozen=True, eq=False)
 class Span:
-    """Rod, rail or coil between two moving points (3,), resolved in the world."""
+    """Rod, rail, coil, damper or rope between two moving points (3,), resolved in the world."""
 
     start: Any
     end: Any
-    style: Style = "rod"
+    style: SpanStyle = "rod"
     diameter: Any = None
+
+
+@dataclass(frozen=True, eq=False)
+class Trail:
+    """Path of a point (3,), resolved in the world."""
+
+    at: Any
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,4 +193,10 @@ class Mesh:
     q: Any = None
 
 
-Shape = Ground | Box | Cylinder | Sphere | Axle | Span | Arrow | Curve | Mesh
+Shape = Ground | Box | Cylinder | Sphere | Axle | Rail | Span | Trail | Arrow | Curve | Mesh
+STYLES: dict[type, tuple[str, ...]] = {
+    Cylinder: get_args(SolidStyle),
+    Axle: get_args(JointStyle),
+    Rail: get_args(SolidStyle),
+    Span: get_args(SpanStyle),
+}

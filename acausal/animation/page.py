@@ -16,7 +16,21 @@ from acausal.errors import DeclarationError
 FOLDER = Path(__file__).with_name("page")
 # Files of the viewer, concatenated in this order: definitions that are used while the script loads come first.
 SCRIPTS = (
-    *("vectors", "data", "solids", "tube", "curve", "spans", "mesh", "colours", "stage", "run", "views", "traces"),
+    *(
+        "vectors",
+        "data",
+        "turned",
+        "solids",
+        "tube",
+        "curve",
+        "spans",
+        "mesh",
+        "colours",
+        "stage",
+        "run",
+        "views",
+        "traces",
+    ),
     *("names", "hover", "clock", "record", "plots", "viewer", "choice", "address", "controls", "main"),
 )
 

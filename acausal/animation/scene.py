@@ -10,19 +10,17 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
+from acausal.animation.arrangement import with_axes, with_rails
 from acausal.animation.collect import PartShape, call_user_code, collect
+from acausal.animation.colours import coloured
 from acausal.animation.deformation_reference import with_references
 from acausal.animation.evaluation import Evaluate, evaluate_shapes
 from acausal.animation.missing_frames import fill_missing_frames
+from acausal.animation.sizes import with_default_sizes
 from acausal.animation.validation import check_shape
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 
-# Default sizes as fractions of the median extent of the scene: thin beside the parts, but visible.
-DIAMETER = {g.Cylinder: 0.02, g.Sphere: 0.03, g.Axle: 0.025}
-AXLE = 0.06
-SPAN = {"rod": 0.008, "rail": 0.012, "coil": 0.04}
-TUBE = 0.006
 # A scene whose median extent is below POINT times that of its path, such as a single body without sizes, takes the fraction
 # ALONE of its path as its size.
 POINT, ALONE = 1e-6, 0.5
@@ -111,9 +109,7 @@ class Scene:
 
     def with_default_sizes(self, size: float) -> Scene:
         """Return the scene with default sizes, for a scene of the given size in m, where none are declared."""
-        return replace(
-            self, size=size, shapes=[replace(one, shape=_with_default_sizes(one.shape, size)) for one in self.shapes]
-        )
+        return replace(self, size=size, shapes=with_default_sizes(self.shapes, size))
 
 
 def shapes_of(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[PartShape]]:
@@ -133,7 +129,7 @@ def shapes_of(trees: Sequence[Component], values: Sequence[str] = ()) -> list[li
     """
     found = [collect(tree) for tree in trees]
     for tree, seen in zip(trees, found, strict=True):
-        if all(isinstance(one.shape, g.Ground | g.Arrow) for one in seen):
+        if all(isinstance(one.shape, g.Ground | g.Trail | g.Arrow) for one in seen):
             raise DeclarationError(
                 f"{type(tree).__name__} cannot be animated: none of its parts has a shape. Yield shapes from shapes(), for "
                 "instance `yield geometry.Sphere(geometry.Pose(self.frame.r_0, self.frame.R.T))`."
@@ -174,7 +170,7 @@ def scene_of(run: Run, seen: Sequence[PartShape]) -> Scene:
     found, scalars = evaluate_shapes(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
     for one in found:
         check_shape(one)
-    found = with_references(fill_missing_frames(found, run.time))
+    found = with_references(with_rails(fill_missing_frames(found, run.time)))
     boxes = [box for box in (_box(one.shape) for one in found) if box is not None]
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)
@@ -184,8 +180,10 @@ def scene_of(run: Run, seen: Sequence[PartShape]) -> Scene:
         size = ALONE * path or 1.0
     ups = [one.shape.up for one in found if isinstance(one.shape, g.Ground) and one.shape.up is not None]
     up = np.asarray(ups[0] if ups else (0, 1, 0), dtype=float)
+    up = up / np.linalg.norm(up)
+    found = coloured(with_axes(found, up, size), size)
     plots = [replace(plot, values=values) for plot, values in zip(run.plots, scalars, strict=True)]
-    return Scene(run, found, plots, low.min(axis=0), high.max(axis=0), size, up / np.linalg.norm(up))
+    return Scene(run, found, plots, low.min(axis=0), high.max(axis=0), size, up)
 
 
 def _box(shape: Any) -> tuple[np.ndarray, np.ndarray] | None:
@@ -204,7 +202,7 @@ def bounding_points(shape: Any) -> np.ndarray | None:
         return shape.points
     if isinstance(shape, g.Span):
         return np.stack([shape.start, shape.end], axis=1)
-    if isinstance(shape, g.Arrow):
+    if isinstance(shape, g.Arrow | g.Trail):
         return shape.at[:, None]
     local = _LOCAL.get(type(shape))
     return None if local is None else in_world(shape.pose, local(shape))
@@ -232,33 +230,6 @@ _LOCAL: dict[type, Callable[[Any], np.ndarray]] = {
     g.Axle: lambda s: np.zeros((1, 3)),
     g.Mesh: lambda s: corners(s.vertices.min(axis=0), s.vertices.max(axis=0)),
 }
-
-
-def _with_default_sizes(shape: Any, size: float) -> Any:
-    """Return a shape with default sizes where none are declared."""
-    more: dict[str, Any] = {}
-    if isinstance(shape, g.Curve):
-        section = np.asarray(shape.section, dtype=float)
-        other = np.nanmax(section) if np.isfinite(section).any() else TUBE * size
-        more["section"] = np.where(np.isfinite(section), section, other)
-        if shape.tangents is None:
-            more["tangents"] = smooth_tangents(shape.points)
-    elif hasattr(shape, "diameter"):
-        default = SPAN[shape.style] if isinstance(shape, g.Span) else DIAMETER[type(shape)]
-        more["diameter"] = default * size if shape.diameter is None else float(shape.diameter)
-        if isinstance(shape, g.Axle):
-            more["length"] = AXLE * size if shape.length is None else float(shape.length)
-    return replace(shape, **more)
-
-
-def smooth_tangents(points: np.ndarray) -> np.ndarray:
-    """Return tangents at the points of a curve, shape (times, n, 3), by differences of second order.
-
-    The parameter grows by 1 from each point to the next. At inner points these are the tangents of a Catmull-Rom spline.
-    """
-    if points.shape[1] < 2:
-        return np.zeros_like(points)
-    return np.gradient(points, axis=1, edge_order=min(points.shape[1] - 1, 2))
 
 
 def chord_fractions(curve: g.Curve) -> list[float]:

@@ -15,4 +15,4 @@ class Spherical(PositionConstraint):
 
     def shapes(self):
         """A ball."""
-        yield geometry.Sphere(pose(self.frame_b))
+        yield geometry.Axle(pose(self.frame_b), (0, 0, 1), style="ball")

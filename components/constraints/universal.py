@@ -32,5 +32,5 @@ class Universal(PositionConstraint):
 
     def shapes(self):
         """A pin along each axis."""
-        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n_a))
-        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n_b))
+        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n_a), style="pin")
+        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n_b), style="pin")

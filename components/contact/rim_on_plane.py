@@ -71,7 +71,8 @@ class RimOnPlane(Contact):
 
     def shapes(self):
         """The rim, and the force."""
-        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n_b), diameter=2 * self.radius)
+        half = unit_vector(self.n_b) * self.radius / 8
+        yield geometry.Cylinder(pose(self.frame_b), -half, half, 2 * self.radius, "wheel")
         yield from super().shapes()
 
     def _directions(self) -> tuple[Any, Any]:

@@ -1,21 +1,9 @@
-// Colours of parts and of values, with the colour bar.
+// Colours of runs and of values, with the colour bar.
 
-const PALETTE = ["#4c8bf5", "#f2994a", "#27ae80", "#c868d8", "#e2596b", "#2db5c9", "#b59f3b", "#8d7bf0"];
-const OF_KIND = {
-  axle: "#5b6472", coil: "#d08a2e", rod: "#8f99a8", rail: "#7b8594", force: "#e5484d", torque: "#8e4ec6", ground: "#888888",
-};
 const GHOST = ["#3d6fd0", "#e0218a", "#7a3ff2", "#0f9d9d"]; // of runs and traces, different from the colours of bodies
 
 /** Linear RGB of a colour "#rrggbb", for materials, lights and vertices: three.js r130 does not convert colours itself. */
 const linear = (colour) => new THREE.Color(colour).convertSRGBToLinear();
-
-/** Colour of a shape: its own, or by kind, or by part for bodies. */
-function colourOf(shape, bodies) {
-  const known = shape.color ?? OF_KIND[shape.style ?? shape.quantity ?? shape.kind];
-  if (known) return known;
-  if (!bodies.has(shape.part)) bodies.set(shape.part, bodies.size);
-  return PALETTE[bodies.get(shape.part) % PALETTE.length];
-}
 
 const SEQUENTIAL = ["#3b3fae", "#2f7fd0", "#26b3b0", "#7fce5c", "#f3d03e", "#f08a2c", "#d5303e"];
 const DIVERGING = ["#1f5fd0", "#5f9cf0", "#b9d2f5", "#e6e6e6", "#f6c3a8", "#ea7a55", "#c8263b"];

@@ -14,7 +14,7 @@ async function start() {
   const content = JSON.parse($("document").textContent);
   const stage = new Stage($("picture"), sceneOf(content.runs));
   const runs = [];
-  for (const [number, run] of content.runs.entries()) runs.push(await Run.of(stage, run, number));
+  for (const [number, run] of content.runs.entries()) runs.push(await Run.of(stage, run, number, content.looks));
   stage.runs = runs;
   stage.grounded = runs.some((run) => run.grounded);
   stage.show.grid = stage.grounded;

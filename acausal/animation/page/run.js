@@ -1,15 +1,14 @@
 // One run: its columns, its poses, and one item for each shape.
 
 class Run {
-  static async of(stage, run, number) {
+  static async of(stage, run, number, looks = {}) {
     const created = new Run();
-    Object.assign(created, { stage, run, number, name: run.name, stopped: run.stopped, parts: run.parts });
+    Object.assign(created, { stage, run, number, looks, name: run.name, stopped: run.stopped, parts: run.parts });
     created.columns = await Columns.of(run);
     created.group = new THREE.Group();
     created.poses = run.poses.map((pose) => new Pose(stage, created.columns, pose));
     for (const pose of created.poses) created.group.add(pose.group);
     created.materials = [];
-    created.bodies = new Map();
     created.items = [];
     for (const shape of run.shapes) created.items.push(await created.item(shape));
     created.items.forEach((item, index) => {
@@ -21,20 +20,20 @@ class Run {
   }
 
   item(shape) {
-    const kinds = { curve: Curve, span: Span, arrow: Arrow, box: Solid, cylinder: Solid, sphere: Solid, axle: Solid };
+    const kinds = { curve: Curve, span: Span, trail: Trail, arrow: Arrow, box: Solid, cylinder: Solid, sphere: Solid, axle: Solid };
     if (shape.kind === "ground") return { update() {}, positions: () => [], object: new THREE.Group(), anchor: null };
     if (shape.kind === "mesh") return Skin.of(this, shape);
     return new kinds[shape.kind](this, shape);
   }
 
   colour(shape) {
-    return colourOf(shape, this.bodies);
+    return shape.color ?? "#888888";
   }
 
   /** Material of a shape; tubes and surfaces have vertex colours. */
   material(shape, more = {}) {
     const plain = more.vertexColors ? "#ffffff" : this.colour(shape);
-    const material = new THREE.MeshPhongMaterial({ color: linear(plain), specular: linear("#333333"), shininess: 40, ...more });
+    const material = new THREE.MeshPhongMaterial({ color: linear(plain), specular: linear("#1c1c1c"), shininess: 25, ...more });
     this.materials.push({ material, plain, painted: Boolean(more.vertexColors) });
     return material;
   }

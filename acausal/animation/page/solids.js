@@ -1,8 +1,8 @@
-// Rigid shapes: boxes, cylinders, spheres and axles, fixed to the pose of a body.
+// Rigid shapes: boxes, cylinders, spheres and parts of joints, fixed to the pose of a body.
 
 const UNIT = {
   box: () => new THREE.BoxGeometry(1, 1, 1),
-  cylinder: () => new THREE.CylinderGeometry(0.5, 0.5, 1, 40),
+  cylinder: () => new THREE.CylinderGeometry(0.5, 0.5, 1, 24),
   sphere: () => new THREE.SphereGeometry(0.5, 40, 24),
   cone: () => new THREE.CylinderGeometry(0, 0.5, 1, 24),
 };
@@ -69,8 +69,9 @@ class Solid {
   constructor(context, shape) {
     this.pose = context.poses[shape.pose];
     this.stage = context.stage;
-    this.object = new THREE.Mesh(unitGeometry(shape.kind === "axle" ? "cylinder" : shape.kind), context.material(shape));
-    const { matrix, marks, middle } = Solid[shape.kind](shape, context.stage);
+    const { matrix, marks, middle, ratio } = Solid[shape.kind](shape);
+    const { style } = shape;
+    this.object = style ? turnedObject(context, shape, ratio) : new THREE.Mesh(unitGeometry(shape.kind), context.material(shape));
     this.object.matrixAutoUpdate = false;
     this.object.matrix.copy(matrix);
     this.marks = marks;
@@ -86,7 +87,9 @@ class Solid {
   static cylinder(shape) {
     const middle = lerp(shape.from, shape.to, 0.5);
     const matrix = cylinderMatrix(shape.from, shape.to, shape.diameter);
-    return { matrix, middle, marks: [[0, 0, 0], [0, -0.5, 0], [0, 0.5, 0]] };
+    const size = length(minus(shape.to, shape.from));
+    const ratio = size > 0 ? shape.diameter / size : 0;
+    return { matrix, middle, marks: [[0, 0, 0], [0, -0.5, 0], [0, 0.5, 0]], ratio };
   }
 
   static sphere(shape) {

@@ -1,7 +1,8 @@
-// Coils, rods and rails between two moving points, and arrows.
+// Coils, rods and other spans between two moving points, and arrows.
 
 const TURNS = 9;
 const PER_TURN = 16;
+const SLENDER = 0.1; // diameter / length for the bevels of spans
 const LEAD = 0.12; // straight fraction of the length at each end of a coil
 
 class Span {
@@ -13,7 +14,7 @@ class Span {
       this.tube = new Tube(TURNS * PER_TURN + 1 + 8, circle(8), context.material(shape));
       this.object = this.tube.object;
     } else {
-      this.object = new THREE.Mesh(unitGeometry(shape.style === "rail" ? "box" : "cylinder"), context.material(shape));
+      this.object = turnedObject(context, shape, SLENDER);
       this.object.matrixAutoUpdate = false;
     }
     context.group.add(this.object);

@@ -45,9 +45,9 @@ class Stage {
   }
 
   addLights() {
-    this.scene.add(new THREE.HemisphereLight("#ffffff", linear("#9aa3b0"), 1.5));
+    this.scene.add(new THREE.HemisphereLight("#ffffff", linear("#aab2be"), 1.9));
     // Fixed to the camera, from above on the left, so that no visible side is dark.
-    const sun = new THREE.DirectionalLight("#ffffff", 2.1);
+    const sun = new THREE.DirectionalLight("#ffffff", 2.2);
     sun.position.set(-0.6, 1, 0.9);
     this.camera.add(sun, sun.target);
     sun.target.position.set(0, 0, -0.2);
