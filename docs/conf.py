@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -35,11 +36,19 @@ napoleon_google_docstring = False
 nitpicky = False
 
 
+def escape(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Escape characters of formulas in a docstring that reStructuredText would read as markup."""
+    for k, line in enumerate(lines):
+        code = line.split("`")
+        lines[k] = "`".join(part if n % 2 else re.sub(r"([|*])", r"\\\1", part) for n, part in enumerate(code))
+
+
 def setup(app: Any) -> None:
     """Write the pages that follow from the code before the first page is read."""
     from generate import components, scenes
 
     logging.getLogger("skfem").setLevel(logging.WARNING)
 
+    app.connect("autodoc-process-docstring", escape, priority=900)
     Path(app.srcdir, scenes.FOLDER).mkdir(parents=True, exist_ok=True)
     app.connect("builder-inited", lambda app: components.write(Path(app.srcdir, "components")))

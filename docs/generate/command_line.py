@@ -18,8 +18,8 @@ class CommandLine(SphinxDirective):
         group: Any = get_command(app)
         texts = []
         for name, command in group.commands.items():
-            with command.make_context(name, [], info_name=f"acausal {name}", resilient_parsing=True) as context:
-                context.max_content_width = 100
+            width = {"terminal_width": 100, "max_content_width": 100}
+            with command.make_context(f"acausal {name}", [], resilient_parsing=True, **width) as context:
                 texts.append(f"## acausal {name}\n\n```text\n{command.get_help(context)}\n```")
         return self.parse_text_to_nodes("\n\n".join(texts), allow_section_headings=True)
 

@@ -7,6 +7,7 @@ from html import escape
 from typing import Any
 
 from latex2mathml.converter import convert
+from sphinx.util.logging import getLogger
 
 
 def mathml(latex: str, display: str = "inline") -> str:
@@ -16,7 +17,7 @@ def mathml(latex: str, display: str = "inline") -> str:
     latex = re.sub(r"\\mathrm\{((?:[\w. ]|\\_){2,})\}", lambda word: f"\\text{{{word[1].replace(chr(92), '')}}}", latex)
     found = convert(latex, display=display)
     if "<mi>&</mi>" in found or "\\" in found:
-        raise ValueError(f"this formula cannot be typeset: {latex}")
+        getLogger(__name__).warning("this formula cannot be typeset: %s", latex)
     return found
 
 

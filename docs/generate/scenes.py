@@ -40,6 +40,14 @@ class Scene(SphinxDirective):
         """Return the nodes of the page."""
         name = self.arguments[0]
         cls, folder = SCENES[name], Path(self.env.srcdir, FOLDER)
+        try:
+            result = self._simulated(cls, folder, name)
+        except (ac.AcausalError, ac.AcausalWarning) as error:
+            raise self.error(f"{name}: {error}") from error
+        self.env.note_dependency(inspect.getfile(cls))
+        return self.parse_text_to_nodes(self._text(name, cls, result))
+
+    def _simulated(self, cls: type, folder: Path, name: str) -> Any:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             result = ac.simulate(cls(), parameters=self._parameters())
@@ -48,8 +56,7 @@ class Scene(SphinxDirective):
                 warnings.simplefilter("ignore")
             if "plot" not in self.options:
                 getattr(result, "explore", result.animate)(folder / f"{name}.html")
-        self.env.note_dependency(inspect.getfile(cls))
-        return self.parse_text_to_nodes(self._text(name, cls, result))
+        return result
 
     def _parameters(self) -> dict[str, Any]:
         pairs = (word.partition("=") for word in shlex.split(self.options.get("set", "")))
