@@ -8,6 +8,7 @@ from pathlib import Path
 
 import components
 from acausal import Connector
+from acausal.compiler.equations import EquationList
 from components.table import Entry
 from generate.alone import arguments, equations, file_of
 from generate.docstrings import entries, sections, table
@@ -28,6 +29,7 @@ PACKAGES = {
     "blocks": ("Blocks", "Signals: sources, transfer functions, controllers, logic and tables."),
 }
 LONG = 1500  # characters of an equation above which a page leaves it out
+UNCONNECTED = "is not connected"  # in the origin of a flow that is 0 because the component stands alone
 MOST = 40  # equations on a page
 
 
@@ -84,8 +86,8 @@ def _example(entry: Entry, name: str) -> str:
 
 
 def _equations(entry: Entry) -> str:
-    found = equations(entry)
-    rows = [one for one in found.latex_rows() if len(one) < LONG][:MOST]
+    found = [one for one in equations(entry) if UNCONNECTED not in one.origin]
+    rows = [one for one in EquationList(tuple(found), "it").latex_rows() if len(one) < LONG][:MOST]
     if not rows:
         return ""
     left = len(found) - len(rows)
