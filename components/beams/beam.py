@@ -134,8 +134,8 @@ class Beam(TwoFrames):
         "stretch",
         default="dynamic",
         choices=("dynamic", "quasi_static", "none"),
-        doc="dynamic: with axial vibrations; quasi_static: proportional to the axial force, without inertia (in a closed loop only "
-        "node_r_0 shows it); none: inextensible.",
+        doc="dynamic: with axial vibrations; quasi_static: proportional to the axial force, without inertia (in a closed loop "
+        "only node_r_0 shows it); none: inextensible.",
     )
     bending: str = effect(
         "bending",

@@ -13,7 +13,7 @@ from models import FourBar
 
 
 class Hanging(FourBar):
-    """As in docs/background/loops.md; its damped motion from there ends in the same place."""
+    """Its damped motion from there ends in the same place."""
 
     j1 = Revolute(use_axis_flange=True, phi=guess(-1))
 
