@@ -75,18 +75,20 @@ def document_of(
     return {
         "version": VERSION,
         "title": title or ", ".join(titles),
-        "looks": looks(one.shape for scene in evaluated.values() for one in scene.shapes),
+        "looks": looks(
+            one.shape.style for scene in evaluated.values() for one in scene.shapes if hasattr(one.shape, "style")
+        ),
         "start": urlencode(start | ({"x": f"{deformation:g}"} if deformation != 1 else {})),
         "runs": [_Writer(name, scene).document() for name, scene in evaluated.items()],
     }
 
 
-def looks(shapes: Iterable[Any]) -> dict[str, Any]:
-    """Return the layers of all styles of shapes, by style."""
-    styles = sorted({shape.style for shape in shapes if hasattr(shape, "style")} - {"coil"})
+def looks(styles: Iterable[str]) -> dict[str, Any]:
+    """Return the layers of styles by name, without those of coils, which are not straight."""
+    styles = sorted(set(styles) - {"coil"})
     return {
         style: [
-            {"rows": layer.rows, "color": layer.colour, "sides": layer.sides, "notch": layer.notch}
+            {"rows": np.round(layer.rows, 4).tolist(), "color": layer.colour, "sides": layer.sides, "notch": layer.notch}
             for layer in LOOKS[style]
         ]
         for style in styles

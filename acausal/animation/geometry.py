@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
-SolidStyle = Literal["plain", "link", "wheel", "rail", "shaft", "screw"]
+RailStyle = Literal["guide", "shaft", "screw"]
+SolidStyle = Literal["plain", "link", "wheel", RailStyle]
 JointStyle = Literal["hinge", "pin", "ball", "block", "sleeve", "gear", "rotor", "support"]
 SpanStyle = Literal["rod", "rail", "coil", "damper", "rope"]
 Quantity = Literal["force", "torque"]
@@ -93,7 +94,7 @@ class Rail:
     pose: Pose
     axis: Any
     to: Any
-    style: SolidStyle = "rail"
+    style: RailStyle = "guide"
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,6 +198,6 @@ Shape = Ground | Box | Cylinder | Sphere | Axle | Rail | Span | Trail | Arrow | 
 STYLES: dict[type, tuple[str, ...]] = {
     Cylinder: get_args(SolidStyle),
     Axle: get_args(JointStyle),
-    Rail: get_args(SolidStyle),
+    Rail: get_args(RailStyle),
     Span: get_args(SpanStyle),
 }

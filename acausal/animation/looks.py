@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.animation.colours import BASE, BRIGHT, COIL, DARK, RUBBER, STEEL
+from acausal.animation.colours import BASE, BRIGHT, DARK, RUBBER, STEEL
 
 # A row of a layer holds the position along the axis as a fraction of the length and, added to it, in diameters; and the radius in
 # diameters. So ends keep their shape whatever the length.
@@ -73,7 +73,8 @@ LOOKS: dict[str, tuple[Layer, ...]] = {
     "rod": PLAIN,
     "rope": (Layer(_solid(0, 1, 0.5), sides=8),),
     "link": (Layer(_round_ends(0.5, 0.36)),),
-    "rail": (Layer(_solid(0, 1, 0.5, beyond=OVERHANG), STEEL, sides=4),),
+    "rail": (Layer(_solid(0, 1, 0.5), STEEL, sides=4),),
+    "guide": (Layer(_solid(0, 1, 0.5, beyond=OVERHANG), STEEL, sides=4),),
     "shaft": (Layer(_solid(0, 1, 0.5, beyond=OVERHANG), STEEL),),
     "screw": (Layer(_thread(), STEEL),),
     "wheel": (
@@ -109,7 +110,6 @@ LOOKS: dict[str, tuple[Layer, ...]] = {
         Layer(_solid(0, 0.55, 0.5, bevel=0.06), STEEL),
         Layer(_solid(0.5, 1, 0.2), BRIGHT),
     ),
-    "coil": (Layer((), COIL),),
 }
 
 

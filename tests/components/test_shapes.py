@@ -79,7 +79,7 @@ def entries(shape: Any) -> Iterator[tuple[str, Any]]:
 
 SIZES = {"r": (3,), "T": (3, 3), "center": (3,), "axes": (3, 3), "axis": (3,), "at": (3,), "vector": (3,)}
 NAMED = ("up", "bending moment", "bending moment y", "torque", "axial force", "deflection", "deflection z")
-SIZES |= {"diameter": (), "length": ()}
+SIZES |= {"diameter": (), "length": (), "to": (3,)}
 
 
 @pytest.mark.filterwarnings("ignore:.*linear frames:acausal.AcausalWarning")
@@ -148,23 +148,34 @@ def test_no_shape_is_asked_for_before_a_picture_is(monkeypatch):
 # Rods, joints and rigid bodies.
 
 
-@pytest.mark.parametrize("name", ["FixedTranslation", "FixedRotation", "Spring", "Damper", "SpringDamperParallel"])
-def test_spans_end_in_the_frames(name):
+@pytest.mark.parametrize("name", ["Spring", "Damper", "SpringDamperParallel", "SpringDamperSeries"])
+def test_spans_go_from_frame_to_frame(name):
     result = ran(SCENES[name])
-    (span,) = shapes_of(result, "it", geometry.Span)
-    assert span.style == ("coil" if "Spring" in name else "rod")
-    np.testing.assert_array_equal(read(result, span.start), result["it.frame_a.r_0"])
-    np.testing.assert_array_equal(read(result, span.end), result["it.frame_b.r_0"])
+    spans = shapes_of(result, "it", geometry.Span)
+    styles = {"Spring": ["coil"], "Damper": ["damper"], "SpringDamperParallel": ["damper", "coil"]}
+    assert [span.style for span in spans] == styles.get(name, ["damper", "coil"])
+    ends = [read(result, end) for span in spans for end in (span.start, span.end)]
+    np.testing.assert_array_equal(ends[0], result["it.frame_a.r_0"])
+    np.testing.assert_array_equal(ends[-1], result["it.frame_b.r_0"])
 
 
-def test_rail_lies_along_the_axis():
-    result = ran(SCENES["Prismatic"])
-    (rail,) = shapes_of(result, "it", geometry.Span)
-    along = read(result, rail.end) - read(result, rail.start)
-    n = np.array([1, 2, 2]) / 3
-    expected = result["it.s"][:, None] * (n @ result["it.frame_a.R.T"])
-    assert rail.style == "rail"
+@pytest.mark.parametrize("name", ["FixedTranslation", "FixedRotation"])
+def test_links_end_in_the_frames(name):
+    result = ran(SCENES[name])
+    (link,) = shapes_of(result, "it", geometry.Cylinder)
+    for end, frame in zip((link.start, link.end), "ab", strict=True):
+        np.testing.assert_allclose(placed(result, link.pose, end), result[f"it.frame_{frame}.r_0"], atol=ROUNDING)
+
+
+@pytest.mark.parametrize("name", ["Prismatic", "Cylindrical", "ScrewJoint"])
+def test_rails_lead_frame_b(name):
+    result = ran(SCENES[name])
+    (rail,) = shapes_of(result, "it", geometry.Rail)
+    along = read(result, rail.to) - read(result, rail.pose.r)
+    expected = result["it.s"][:, None] * np.einsum("ti,tij->tj", read(result, rail.axis), read(result, rail.pose.T))
     np.testing.assert_allclose(along, expected, atol=1e-6 * np.abs(expected).max())
+    (block,) = shapes_of(result, "it", geometry.Axle)
+    np.testing.assert_allclose(read(result, block.pose.r), read(result, rail.to), atol=ROUNDING)
 
 
 @pytest.mark.parametrize("name", ["Revolute", "RevolutePlanarLoopConstraint"])
@@ -180,12 +191,12 @@ def test_pins_have_one_axis_in_both_frames(name):
 
 def test_body_is_a_sphere_at_the_centre_of_mass():
     result = ran(SCENES["Body"])
-    (rod,), (ball,) = shapes_of(result, "tip", geometry.Span), shapes_of(result, "tip", geometry.Sphere)
+    (link,), (ball,) = shapes_of(result, "tip", geometry.Cylinder), shapes_of(result, "tip", geometry.Sphere)
     centre = result["tip.frame_a.r_0"] + np.einsum("i,tij->tj", R_CM, result["tip.frame_a.R.T"])
     drawn = read(result, ball.pose.r) + np.einsum("ti,tij->tj", read(result, ball.center), read(result, ball.pose.T))
     np.testing.assert_allclose(drawn, centre, atol=ROUNDING)
-    np.testing.assert_allclose(read(result, rod.end), centre, atol=ROUNDING)
-    np.testing.assert_array_equal(read(result, rod.start), result["tip.frame_a.r_0"])
+    np.testing.assert_allclose(placed(result, link.pose, link.end), centre, atol=ROUNDING)
+    np.testing.assert_array_equal(placed(result, link.pose, link.start), result["tip.frame_a.r_0"])
 
 
 def test_body_at_its_frame_needs_no_rod():
@@ -238,11 +249,9 @@ def test_body_of_two_frames_shows_its_rod_and_its_centre():
     result = ran(OnBodyShape)
     found = list(collected(result.tree.it))
     assert {owner._path for owner, _ in found} == {"it"}
-    to_b, to_centre = (shape for _, shape in found if isinstance(shape, geometry.Span))
-    np.testing.assert_allclose(read(result, to_b.end), result["it.frame_b.r_0"], atol=ROUNDING)
-    np.testing.assert_allclose(
-        np.linalg.norm(read(result, to_centre.end) - read(result, to_centre.start), axis=1), 6**0.5 / 10
-    )
+    to_b, to_centre = (shape for _, shape in found if isinstance(shape, geometry.Cylinder))
+    np.testing.assert_allclose(placed(result, to_b.pose, to_b.end), result["it.frame_b.r_0"], atol=ROUNDING)
+    np.testing.assert_allclose(np.linalg.norm(read(result, to_centre.end), axis=1), 6**0.5 / 10)
 
 
 def test_ground_is_normal_to_gravity():
@@ -389,10 +398,11 @@ def test_own_parts_appear_by_themselves():
     found = [(owner._path, type(shape).__name__) for owner, shape in collected(ac.compile(Walker()).tree)]
     assert found == [
         ("world", "Ground"),
+        ("world", "Axle"),
         ("link", "Span"),
-        ("leg.hip", "Sphere"),
+        ("leg.hip", "Axle"),
         ("leg.shin", "Box"),
-        ("shod.hip", "Sphere"),
+        ("shod.hip", "Axle"),
         ("shod.shin", "Box"),
         ("shod", "Sphere"),
         ("hidden.shin", "Box"),

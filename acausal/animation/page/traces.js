@@ -81,6 +81,7 @@ function pathLines(frames, colour) {
     geometry.setAttribute("position", position);
     const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: linear(colour), transparent: true, opacity }));
     line.frustumCulled = false;
+    line.raycast = () => {}; // the pointer finds parts
     return line;
   });
 }

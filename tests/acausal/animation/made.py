@@ -10,6 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
+from acausal.animation.document import looks
+from acausal.animation.looks import LOOKS
+
 Array = NDArray[np.float64]
 
 
@@ -118,10 +121,17 @@ def every_kind(scale: float = 1.0, away: ArrayLike = (0, 0, 0), frames: int = 10
     box = {"kind": "box", "pose": 0, "center": center.tolist(), "axes": axes.tolist(), "size": size.tolist()}
     show(box, "machine.box", places(r, T, [center, center - half, center + half]), "BodyBox")
     a, b = scale * np.array([0.0, 0, 0]), scale * np.array([0.1, 0.3, -0.2])
-    shape = {"kind": "cylinder", "pose": 1, "from": a.tolist(), "to": b.tolist(), "diameter": 0.08 * scale}
+    shape = {
+        "kind": "cylinder",
+        "pose": 1,
+        "from": a.tolist(),
+        "to": b.tolist(),
+        "diameter": 0.08 * scale,
+        "style": "plain",
+    }
     show(shape, "machine.cylinder", places(r1, T1, [(a + b) / 2, a, b]), "BodyCylinder")
     center = scale * np.array([0.2, 0.1, 0.3])
-    shape = {"kind": "sphere", "pose": 0, "center": center.tolist(), "diameter": 0.15 * scale}
+    shape = {"kind": "sphere", "pose": 0, "center": center.tolist(), "diameter": 0.15 * scale, "color": "#27ae80"}
     show(shape, "machine.sphere", places(r, T, [center]), "Body")
     pin = np.array([0.1, 0, 0]) * scale
     shape = {
@@ -131,6 +141,7 @@ def every_kind(scale: float = 1.0, away: ArrayLike = (0, 0, 0), frames: int = 10
         "axis": [1, 0, 0],
         "length": 0.2 * scale,
         "diameter": 0.1 * scale,
+        "style": "hinge",
     }
     show(shape, "machine.pin", places(r1, T1, [0 * pin, -pin, pin]), "Revolute")
     for style in ("coil", "rod", "rail"):
@@ -169,6 +180,7 @@ def every_kind(scale: float = 1.0, away: ArrayLike = (0, 0, 0), frames: int = 10
         }
         show(shape, f"machine.{path}", nodes, "FlexibleBeam")
     show(*skin(columns, scale, time, r, T, axis))
+    show({"kind": "trail", "at": poses[0]["r"]}, "machine.trail", r)
     plots = [
         {"name": f"out <{k}>", "unit": unit, "column": columns.add(values)[0]} for k, unit, values in outputs(time)
     ]
@@ -210,4 +222,4 @@ def skin(columns: Columns, scale: float, time: Array, r: Array, T: Array, axis: 
 
 def document(*runs: dict, title: str = "every kind") -> dict[str, Any]:
     """Return a document of runs."""
-    return {"version": 1, "title": title, "runs": list(runs)}
+    return {"version": 1, "title": title, "looks": looks(LOOKS), "runs": list(runs)}

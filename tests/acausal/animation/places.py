@@ -64,6 +64,9 @@ class Frame:
     def _span(self, s: dict[str, Any], _: Any) -> Array:
         return self.values[[s["a"], s["b"]]]
 
+    def _trail(self, s: dict[str, Any], _: Any) -> Array:
+        return self.values[s["at"]]
+
     def _arrow(self, s: dict[str, Any], longest: dict[str, float]) -> Array:
         at, vector = self.values[s["at"]], self.values[s["vector"]]
         return np.array([at, at + (vector * longest[s["quantity"]] if longest[s["quantity"]] else 0)])

@@ -278,7 +278,7 @@ def test_open_sizes_suit_the_scene() -> None:
         )
         rod, axle, bar, smooth = run["shapes"]
         assert run["size"] == pytest.approx(3 * scale)
-        assert 0 < rod["diameter"] < axle["diameter"] < axle["length"] < 0.3 * scale
+        assert 0 < rod["diameter"] < axle["diameter"] < axle["length"] < 0.4 * scale
         assert axle["axis"] == [0, 0, 1]
         assert bar["section"] == [pytest.approx([0.1 * scale] * 2)]
         tangents = columns(run)[np.array(smooth["tangents"])][:, :, 0]

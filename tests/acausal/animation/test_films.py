@@ -63,6 +63,12 @@ def drawn(result: ac.Result, kind: type, k: int, view: Camera = FRONT) -> list[P
     return Drawing(scene, view).frame(k)
 
 
+def pin_of(result: ac.Result) -> Any:
+    """The axle of the orbit, with its sizes."""
+    (scene,) = scenes({"orbit": run_of(result)}).values()
+    return next(one.shape for one in scene.shapes if isinstance(one.shape, geometry.Axle))
+
+
 def edges(polygons: list[Polygon]) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest coordinates of polygons."""
     points = np.concatenate([polygon.corners for polygon in polygons])
@@ -84,7 +90,8 @@ def test_polygons_are_where_the_shapes_are(orbit: ac.Result, k: int) -> None:
     area = sum(abs(_area(face.corners)) for face in faces)
     assert area == pytest.approx(2 * 0.2, rel=0.02)  # seen from the side
     pin = drawn(orbit, geometry.Axle, k)
-    assert len(pin) == 1  # seen from its end
+    low, high = edges(pin)  # seen from its end, which is round
+    assert high - low == pytest.approx([pin_of(orbit).diameter] * 2, rel=0.02)
     assert len(drawn(orbit, geometry.Mesh, k)) == 1  # the others look away
     low, high = edges([p for p in drawn(orbit, geometry.Curve, k) if len(p.corners) == 4])
     assert np.linalg.norm(high - low) == pytest.approx(2, rel=0.1)

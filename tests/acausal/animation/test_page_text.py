@@ -44,7 +44,7 @@ def test_nothing_that_asks_or_evaluates() -> None:
 
 
 def test_size() -> None:
-    assert len(page.html(document(every_kind()[0]))) < 0.76e6
+    assert len(page.html(document(every_kind()[0]))) < 0.765e6
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf")])

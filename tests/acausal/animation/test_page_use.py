@@ -276,7 +276,7 @@ def test_colours_of_the_picture(show: Show, run: dict) -> None:
     colours = {tuple(colour) for colour in picture.reshape(-1, 3)}
     assert {(0xEE, 0xF2, 0xF7), (0xE5, 0x48, 0x4D)} <= colours  # the sky and the x axis, which no light changes
     x, y = place_of(browser, 3)
-    assert picture[int(y), int(x)] == pytest.approx((33, 151, 112), abs=2)  # the ball, lit by the sky and the sun
+    assert picture[int(y), int(x)] == pytest.approx((37, 162, 121), abs=2)  # the ball, lit by the sky and the sun
 
 
 def test_colours_of_values(show: Show, run: dict) -> None:
