@@ -84,7 +84,7 @@ def ends_of(shape: Any) -> Iterator[End]:
         first, last = shape.points[0, [0, 1]], shape.points[0, [-1, -2]]
         section = np.asarray(shape.section, dtype=float)
         thickness = 2 * float(np.nanmax(section)) if np.isfinite(section).any() else None
-        yield from (_end(*first, thickness), _end(*last, thickness))
+        yield from (_end(first[0], first[1], thickness), _end(last[0], last[1], thickness))
     elif isinstance(shape, g.Span):
         yield from (_end(shape.start[0], shape.end[0], None), _end(shape.end[0], shape.start[0], None))
     elif isinstance(shape, g.Cylinder | g.Box):

@@ -8,6 +8,7 @@ import numpy as np
 
 # A scene is flat, and viewed face on, if its depth is less than this fraction of its width or height.
 FLAT = 0.2
+VIEWS = ("front", "top", "right", "iso")
 # View of other scenes, from the right and above, rad.
 AZIMUTH, ELEVATION = 0.6, 0.4
 LIGHT = np.array([-0.4, 0.6, 0.7]) / np.linalg.norm([-0.4, 0.6, 0.7])
@@ -50,9 +51,22 @@ def camera(low: np.ndarray, high: np.ndarray, up: np.ndarray) -> Camera:
     toward = np.cross(right, up)
     wide, high_, deep = (np.abs(axis) @ (high - low) for axis in (right, up, toward))
     if deep <= FLAT * max(wide, high_):
-        return Camera(np.array([right, up, toward]))
+        return standard("front", up)
     if wide <= FLAT * max(deep, high_):
+        return standard("right", up)
+    return standard("iso", up)
+
+
+def standard(view: str, up: np.ndarray) -> Camera:
+    """Return the camera of a view: "front", "top", "right" or "iso", from the right and above."""
+    right = horizontal(up)
+    toward = np.cross(right, up)
+    if view == "front":
+        return Camera(np.array([right, up, toward]))
+    if view == "right":
         return Camera(np.array([-toward, up, right]))
+    if view == "top":
+        return Camera(np.array([right, -toward, up]))
     c, s = np.cos(AZIMUTH), np.sin(AZIMUTH)
     aside, across = c * toward + s * right, c * right - s * toward
     c, s = np.cos(ELEVATION), np.sin(ELEVATION)

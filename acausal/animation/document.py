@@ -60,18 +60,22 @@ def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Sce
     Requested values are kept.
     """
     seen = shapes_of([run.tree for run in runs.values()], values)
-    found = {name: scene_of(run, own) for (name, run), own in zip(runs.items(), seen, strict=True)}
+    found = {name: scene_of(run, [*own, *run.trails]) for (name, run), own in zip(runs.items(), seen, strict=True)}
     size = max(scene.size for scene in found.values())
     names = {v.name for scene in found.values() for v in scene.values() if np.any(v.entries)}.union(values)
     return {name: scene.with_default_sizes(size).with_values(names) for name, scene in found.items()}
 
 
 def document_of(
-    evaluated: Mapping[str, Scene], values: Sequence[str] = (), title: str = "", deformation: float = 1.0
+    evaluated: Mapping[str, Scene],
+    values: Sequence[str] = (),
+    title: str = "",
+    deformation: float = 1.0,
+    view: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of scenes, coloured at first by the first of the requested values."""
+    """Return the document of scenes, coloured at first by the first of the requested values, and seen in a view of VIEWS."""
     titles = dict.fromkeys(scene.run.title for scene in evaluated.values() if scene.run.title)
-    start = {"colour": values[0]} if values and values[0] != ALL else {}
+    start = ({"colour": values[0]} if values and values[0] != ALL else {}) | ({"view": view} if view else {})
     return {
         "version": VERSION,
         "title": title or ", ".join(titles),
@@ -88,7 +92,12 @@ def looks(styles: Iterable[str]) -> dict[str, Any]:
     styles = sorted(set(styles) - {"coil"})
     return {
         style: [
-            {"rows": np.round(layer.rows, 4).tolist(), "color": layer.colour, "sides": layer.sides, "notch": layer.notch}
+            {
+                "rows": np.round(layer.rows, 4).tolist(),
+                "color": layer.colour,
+                "sides": layer.sides,
+                "notch": layer.notch,
+            }
             for layer in LOOKS[style]
         ]
         for style in styles

@@ -141,7 +141,7 @@ class Drawing:
     def turned(self, ends: np.ndarray, side: np.ndarray, style: str, diameter: float, colour: np.ndarray) -> Pieces:
         """Yield the layers of a solid of revolution between two points of the world."""
         for layer in LOOKS[style]:
-            found = list(rings(layer, *ends, side, diameter))
+            found = list(rings(layer, ends[0], ends[1], side, diameter))
             own = colour if layer.colour is None else rgb(layer.colour)
             yield from self.faces(np.concatenate(found), faces(len(found), len(found[0])), own)
 

@@ -54,6 +54,8 @@ class Run:
         Name of the model.
     stopped : str, optional
         Reason why the run ended early.
+    trails : sequence of PartShape
+        Trails, as expressions.
     """
 
     tree: Component
@@ -62,6 +64,7 @@ class Run:
     plots: Sequence[Plot] = ()
     title: str = ""
     stopped: str | None = None
+    trails: Sequence[PartShape] = ()
 
 
 @dataclass(frozen=True)

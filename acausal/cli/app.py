@@ -25,7 +25,7 @@ from acausal.cli.common import (
     stop_time_of,
     user_errors,
 )
-from acausal.cli.option_values import read_inputs
+from acausal.cli.option_values import read_inputs, read_size
 from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
 from acausal.cli.scenes import file_of, find_scene, scenes
 from acausal.cli.streams import escape_unencodable, flushed, tell
@@ -138,7 +138,9 @@ def simulate(
     plot: Annotated[str | None, typer.Option(help="Plot the outputs.", metavar="FILE.png")] = None,
     animate: Annotated[
         str | None,
-        typer.Option(help="Write an animation: a page for any browser, or FILE.gif, FILE.png.", metavar="FILE.html"),
+        typer.Option(
+            help="Write an animation: a page for any browser, or FILE.gif, FILE.mp4, FILE.png.", metavar="FILE.html"
+        ),
     ] = None,
     values: Annotated[
         list[str] | None,
@@ -150,6 +152,15 @@ def simulate(
     deformation: Annotated[
         float, typer.Option(help="Scale of deformations in the animation, 1 to 1000.", metavar="X", show_default=False)
     ] = 1.0,
+    trails: Annotated[
+        list[str] | None,
+        typer.Option(help="Point whose path the animation draws: a frame, such as rod.frame_b.", metavar="PATH"),
+    ] = None,
+    view: Annotated[
+        str | None, typer.Option(help="View of the animation: front, top, right or iso.", metavar="NAME")
+    ] = None,
+    size: Annotated[str | None, typer.Option(help="Size of the film or still in pixels.", metavar="WxH")] = None,
+    fps: Annotated[int | None, typer.Option(help="Frames per second of the film.", metavar="N")] = None,
     json: Json = None,
     variables: Annotated[
         list[str] | None,
@@ -161,7 +172,9 @@ def simulate(
     with running(json, quiet) as standard_output:
         import acausal as ac
 
-        files = Files(scene, csv, plot, json, standard_output, animate, tuple(values or ()), deformation)
+        look = {"values": tuple(values or ()), "deformation": deformation, "trails": tuple(trails or ())}
+        look |= {"view": view, "size": read_size(size), "fps": fps}
+        files = Files(scene, csv, plot, json, standard_output, animate, look)
         check_outputs((file_of(scene), effects), csv=csv, plot=plot, animate=animate, json=json)
         cls = find_scene(scene)
         model, given = make_scene(scene, cls, settings, effects)

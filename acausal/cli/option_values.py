@@ -87,6 +87,22 @@ def read_switches(texts: Iterable[str]) -> dict[str, list[Any]]:
     return found
 
 
+def read_size(text: str | None) -> tuple[int, int] | None:
+    """Read WIDTHxHEIGHT in pixels; None if not given.
+
+    Raises
+    ------
+    DeclarationError
+        If the text is not such a size.
+    """
+    if text is None:
+        return None
+    width, by, height = text.lower().partition("x")
+    if not (by and width.isdecimal() and height.isdecimal()):
+        raise DeclarationError(f"--size takes width and height in pixels, such as --size 800x600, not {text!r}.")
+    return int(width), int(height)
+
+
 def pair(text: str, form: str) -> tuple[str, str]:
     """Split NAME=VALUE; `form` describes the expected form in the message."""
     name, equals, value = (part.strip() for part in text.partition("="))

@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations, product
 from typing import IO, Any
 
@@ -71,10 +71,8 @@ class Files:
         The stream for `json` "-".
     animate : str or None
         Name of the file of the animation.
-    values : tuple of str
-        Quantities by which beams can be coloured in the animation.
-    deformation : float
-        Scale of deformations in the animation.
+    options : mapping
+        Options of the animation, as the arguments of `Result.animate`.
     """
 
     scene: str
@@ -83,16 +81,16 @@ class Files:
     json: str | None
     standard_output: IO[str]
     animate: str | None = None
-    values: tuple[str, ...] = ()
-    deformation: float = 1.0
+    options: Mapping[str, Any] = field(default_factory=dict)
 
     def check(self, tree: Tree) -> None:
-        """Check that the model has visible parts and the values for the animation."""
+        """Check that the model has visible parts, and what the options of the animation name."""
         if self.animate is not None:
             from acausal.result.animated import AnimationOptions, check_visible
 
-            AnimationOptions(values=self.values, deformation=self.deformation).check()
-            check_visible(tree, self.values)
+            options = AnimationOptions(**self.options)
+            options.check(self.animate)
+            check_visible(tree, options)
 
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:
         """Write outputs and chosen variables; `more` goes into the JSON document."""
@@ -106,7 +104,7 @@ class Files:
                 {"scene": self.scene, **result.stats, "not_finite": wrong, **more}, self.json, self.standard_output
             )
         if self.animate:
-            result.animate(self.animate, plots=chosen, values=self.values, deformation=self.deformation)
+            result.animate(self.animate, plots=chosen, **self.options)
 
 
 def write_json(document: Mapping[str, Any], path: str, standard_output: IO[str]) -> None:

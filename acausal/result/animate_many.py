@@ -26,6 +26,10 @@ def animate(
     values: Sequence[str] = (),
     title: str = "",
     deformation: float = 1.0,
+    trails: Sequence[Key] = (),
+    size: tuple[int, int] | None = None,
+    view: str | None = None,
+    fps: int | None = None,
 ) -> None:
     """Animate several runs, side by side or overlaid, to compare them.
 
@@ -45,13 +49,22 @@ def animate(
         Title of the picture; the names of the models if not given.
     deformation : float
         Scale of deformations, 1 to 1000; the page can change it.
+    trails : sequence of str, Path or Expr
+        Points whose paths are drawn, as in `Result.animate`.
+    size : pair of int, optional
+        Width and height of a film or still, in pixels.
+    view : str, optional
+        "front", "top", "right" or "iso".
+    fps : int, optional
+        Frames per second of a film.
 
     Raises
     ------
     ExportError
         If the file cannot be written, or its suffix is unknown; before anything is computed.
     DeclarationError
-        If there is no result, or one of them has no times, no model, nothing visible, or no such values.
+        If there is no result, one of them has no times, no model, nothing visible, or no such values or points, or an option is
+        invalid.
 
     Examples
     --------
@@ -60,7 +73,7 @@ def animate(
     write(
         checked_results(results, 'animate one result with result.animate("run.html")'),
         path,
-        AnimationOptions(frames, plots, values, title, deformation),
+        AnimationOptions(frames, plots, values, title, deformation, trails, size, view, fps),
     )
 
 

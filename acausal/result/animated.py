@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import shutil
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
 
+from acausal.animation import geometry
+from acausal.animation.collect import PartShape
 from acausal.animation.document import document_of, scenes
-from acausal.animation.frames import FRAMES, select_frames
+from acausal.animation.frames import select_frames
 from acausal.animation.page import html
 from acausal.animation.scene import Plot, Run, shapes_of
 from acausal.errors import DeclarationError, ExportError
 from acausal.language.component import Component
-from acausal.language.value_checks import shown as code
+from acausal.language.expression import as_expr
+from acausal.result.animation_options import ENDINGS, PAGES, AnimationOptions, ending
 from acausal.result.files import check_writable, shown_name, whole
 from acausal.result.lookup import Key, Tree, find
 from acausal.result.plots import canvas
-
-PAGES = (".html", ".htm")
-EXAGGERATED = 1000  # largest scale of deformations
-ENDINGS = (*PAGES, ".gif", ".png")
 
 
 class Animatable(Protocol):
@@ -40,47 +39,21 @@ class Animatable(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class AnimationOptions:
-    """Options of an animation: the arguments of `Result.animate`."""
-
-    frames: int = FRAMES
-    plots: Sequence[Key] = ()
-    values: Sequence[str] = ()
-    title: str = ""
-    deformation: float = 1.0
-
-    def check(self) -> None:
-        """Raise DeclarationError for invalid options."""
-        if isinstance(self.frames, bool) or not isinstance(self.frames, int | np.integer) or self.frames < 2:
-            raise DeclarationError(f"frames is a whole number, 2 or more, not {code(self.frames)}.")
-        for name, example in (("plots", "crank.phi"), ("values", "bending moment")):
-            given = getattr(self, name)
-            if isinstance(given, str) or not isinstance(given, Sequence):
-                raise DeclarationError(f'{name} is a list, such as ["{example}"], not {code(given)}.')
-        number = not isinstance(self.deformation, bool) and isinstance(self.deformation, int | float | np.number)
-        if not number or not 1 <= self.deformation <= EXAGGERATED:
-            raise DeclarationError(f"deformation is a number from 1 to {EXAGGERATED}, not {code(self.deformation)}.")
-        if not isinstance(self.title, str):
-            raise DeclarationError(f"title is a text, not {code(self.title)}.")
-
-
 DEFAULT = AnimationOptions()
 
 
 def write(results: Mapping[str, Animatable], path: str | Path, options: AnimationOptions) -> None:
     """Write an animation of results by name; raises the errors of `Result.animate`."""
     check_animation(path)
-    options.check()
-    title = options.title
+    options.check(path)
     found = scenes({name: run_of(result, options) for name, result in results.items()}, options.values)
-    if _ending(path) in PAGES:
+    if ending(path) in PAGES:
         with whole(path) as file:
-            file.write(html(document_of(found, options.values, title, options.deformation)))
+            file.write(html(document_of(found, options.values, options.title, options.deformation, options.view)))
         return
-    from acausal.result.films import film, still
+    from acausal.result.films import FILES
 
-    data = (film if _ending(path) == ".gif" else still)(found, title, options.values, options.deformation)
+    data = FILES[ending(path)](found, options)
     with whole(path, "wb") as file:
         file.write(data)
 
@@ -93,17 +66,23 @@ def check_animation(path: str | Path) -> None:
     ExportError
         If it cannot, with the reason.
     """
-    if isinstance(path, str | Path) and str(path).strip() and _ending(path) not in ENDINGS:
+    if isinstance(path, str | Path) and str(path).strip() and ending(path) not in ENDINGS:
         raise ExportError(
-            f"cannot write {shown_name(path)}: the name of an animation ends in .html (a page for any browser), .gif or .png."
+            f"cannot write {shown_name(path)}: the name of an animation ends in .html (a page for any browser), .gif, .mp4 or "
+            ".png."
         )
     check_writable(path)
-    if _ending(path) not in PAGES:
+    if ending(path) not in PAGES:
         canvas(1, 1, "tight")  # raises ExportError if matplotlib cannot be loaded
+    if ending(path) == ".mp4" and shutil.which("ffmpeg") is None:
+        raise ExportError(
+            f"cannot write {shown_name(path)}: .mp4 needs the program ffmpeg, which is not installed. Install it, for instance "
+            "with apt-get install ffmpeg or brew install ffmpeg, or write .gif or .html."
+        )
 
 
-def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
-    """Check that a model has visible parts, and beams with the given values.
+def check_visible(tree: Tree, options: AnimationOptions) -> None:
+    """Check that a model has visible parts, beams with the given values, and the points of trails.
 
     Raises
     ------
@@ -111,7 +90,9 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
         If not; the message lists the available values.
     """
     if isinstance(tree, Component):
-        shapes_of([tree], values)
+        shapes_of([tree], options.values)
+        for key in options.trails:
+            trail_of(tree, key)
 
 
 def run_of(result: Animatable, options: AnimationOptions = DEFAULT) -> Run:
@@ -134,7 +115,28 @@ def run_of(result: Animatable, options: AnimationOptions = DEFAULT) -> Run:
     quantities = [find(tree, key) for key in options.plots or result.outputs]
     plots = [Plot(name, unit, q[index].column) for q in quantities for index, name, unit in q.entries]
     title, stopped = result.title or type(tree).__name__, result.stats.get("stopped")
-    return Run(tree, result.time[places], _at(result, places), plots, title, stopped)
+    trails = [trail_of(tree, key) for key in options.trails]
+    return Run(tree, result.time[places], _at(result, places), plots, title, stopped, trails)
+
+
+def trail_of(tree: Component, key: Key) -> PartShape:
+    """Return the trail of a frame or a position.
+
+    Raises
+    ------
+    DeclarationError
+        If the model has no such point.
+    """
+    origin = f"{key}.r_0"
+    try:
+        quantity = find(tree, origin if isinstance(key, str | Path) else key)
+    except DeclarationError:
+        quantity = find(tree, key)
+    if quantity.shape != (3,):
+        raise DeclarationError(
+            f"trails: {quantity.name} is not a point. Name a frame, such as rod.frame_b, or a position of three coordinates."
+        )
+    return PartShape(str(key), "trail", geometry.Trail(as_expr([quantity.column[k] for k in range(3)])))
 
 
 def _at(result: Animatable, places: np.ndarray) -> Any:
@@ -145,7 +147,3 @@ def _at(result: Animatable, places: np.ndarray) -> Any:
     if hasattr(evaluate, "at"):
         return evaluate.at(places)
     return lambda column: np.asarray(evaluate(column))[places]
-
-
-def _ending(path: str | Path) -> str:
-    return Path(path).suffix.lower()

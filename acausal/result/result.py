@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError, caution
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
@@ -17,6 +16,7 @@ from acausal.locks import exclusive
 from acausal.result.evaluation import read
 from acausal.result.invalid_values import invalid_values
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
+from acausal.result.pictures import Pictures
 from acausal.result.plots import Series, curves, draw, finish
 from acausal.result.snapshot import Snapshot, take_snapshot
 from acausal.result.statistics import Statistics
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Result:
+class Result(Pictures):
     """Every variable and parameter of a run over time.
 
     A pickled result does not need the model's classes: it is read by name alone.
@@ -224,53 +224,6 @@ class Result:
     def _find(self, key: Key) -> Quantity:
         """Return the quantity of a key, of the model or beside it."""
         return find(self._more if self._more and self._beside(key) else self.tree, key)
-
-    @checked_arguments
-    @exclusive
-    def animate(
-        self,
-        path: str | Path,
-        *,
-        frames: int = FRAMES,
-        plots: Sequence[Key] = (),
-        values: Sequence[str] = (),
-        title: str = "",
-        deformation: float = 1.0,
-    ) -> None:
-        """Write an animation of the machine, with plots of the outputs below it.
-
-        Parameters
-        ----------
-        path : str or Path
-            Name of the file: .html, a page for any browser; .gif, a film; .png, several instants in one picture.
-        frames : int
-            Approximate number of frames to which a longer result is thinned.
-        plots : sequence of str, Path or Expr
-            Quantities plotted below the picture; the outputs if empty.
-        values : sequence of str
-            Extra quantities by which beams can be coloured, such as "bending moment", "torque", "axial force"; or "all".
-        title : str
-            Title of the picture.
-        deformation : float
-            Scale of deformations, 1 to 1000; the page can change it.
-
-        Raises
-        ------
-        ExportError
-            If the file cannot be written, before anything is computed.
-        DeclarationError
-            If the result has no times, no model, nothing visible, or no such values.
-        """
-        from acausal.result.animated import AnimationOptions, write
-
-        write({self.title or self._model: self}, path, AnimationOptions(frames, plots, values, title, deformation))
-
-    @exclusive
-    def _repr_html_(self) -> str:
-        """Show a summary in a notebook, and the animation if something is visible."""
-        from acausal.result.notebook import result_html
-
-        return result_html(self)
 
     def _columns(self, keys: Iterable[Key]) -> dict[str, np.ndarray]:
         check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])

@@ -56,7 +56,8 @@ def test_page_and_films_draw_the_same_solids(show: Show, scene: Scene) -> None:
     box = (
         "(item) => { const b = new THREE.Box3(), p = new THREE.Vector3(); item.object.traverse((o) => {"
         " const at = o.geometry?.attributes.position;"
-        " for (let i = 0; i < (at?.count ?? 0); i++) b.expandByPoint(p.fromBufferAttribute(at, i).applyMatrix4(o.matrixWorld)); });"
+        " for (let i = 0; i < (at?.count ?? 0); i++)"
+        " b.expandByPoint(p.fromBufferAttribute(at, i).applyMatrix4(o.matrixWorld)); });"
         " return [b.min, b.max].map((p) => p.toArray().map((x, j) => x + acausal.viewer.stage.origin[j])); }"
     )
     k = 13

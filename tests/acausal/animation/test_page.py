@@ -179,7 +179,7 @@ def test_deformation_is_scaled_from_chord_or_root(show: Show) -> None:
 
 
 def test_modes_of_a_skin_are_scaled(show: Show) -> None:
-    run, expected = scene()
+    run, _ = scene()
     k = KINDS.index("mesh")
     once, thrice = (drawn(show(document(run), f"#x={x}"), 0.74, k + 1)[k] for x in (1, 3))
     still = {**run, "shapes": [*run["shapes"][:k], {**run["shapes"][k], "modes": None, "q": []}]}
