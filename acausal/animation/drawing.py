@@ -20,7 +20,7 @@ GRID = "#d9dee6"
 ARROW = 0.25  # length of the longest arrow, relative to the size of the scene
 LINES = 8  # grid spacings within the diagonal of the scene
 SIDES, TURNS = 32, 9  # corners of a circle, turns of a coil
-TRAIL = 0.003  # width of a trail, relative to the size of the scene
+TRAIL = 0.0018  # half the width of a trail, relative to the size of the scene
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from acausal.animation.collect import PartShape
 LONG = 3.0
 SPHERE, TUBE = 0.045, 0.006
 CYLINDER = {"plain": 0.03, "link": 0.032, "wheel": 0.2, "guide": 0.016, "shaft": 0.016, "screw": 0.024}
-SPAN = {"rod": 0.014, "rail": 0.016, "coil": 0.05, "damper": 0.036, "rope": 0.006}
+SPAN = {"rod": 0.014, "rail": 0.016, "coil": 0.05, "damper": 0.026, "rope": 0.006}
 # Length and diameter of the parts of joints, beside a part of the thickness THICK.
 AXLE = {
     "hinge": (0.05, 0.038),
