@@ -11,7 +11,12 @@ from components.two_frame_body import TwoFrameBody
 
 
 class BodyRod(TwoFrameBody):
-    """Thin uniform rod along r: moment of inertia m r^2 / 12 about the transverse axes, 0 about its own axis."""
+    """Thin uniform rod along r: moment of inertia m r^2 / 12 about the transverse axes, 0 about its own axis.
+
+    Notes
+    -----
+    It must not rotate freely about its own axis, as between two Spherical joints: give I, or use a BodyCylinder.
+    """
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m", doc="Axis of the rod.")
     m: Scalar = parameter("mass", unit="kg", minimum=0)

@@ -180,7 +180,8 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     *cases : (value, Condition) pairs, then a value
         The last argument, without a condition, is the value otherwise. Where a condition compares `time` with an
         expression of parameters, alone or joined with others, its change is a time event: the integration stops there
-        exactly. Changes of other conditions are state events, located to about the tolerance.
+        exactly. Changes of other conditions are state events, located to about the tolerance. A value that is
+        differentiated must not jump.
     smooth : bool
         True declares that the value and its first two derivatives are continuous, so that no event is needed. A run in
         which the value jumps nevertheless ends with a warning.

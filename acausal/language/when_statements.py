@@ -97,6 +97,11 @@ def when(condition: Any, *actions: Reinit | Call, at_start: bool = False) -> Whe
     at_start : bool
         True if they also take place at the start, if the condition holds there.
 
+    Notes
+    -----
+    A condition that becomes true just after the start acts at the start. One that becomes true at the stop time has acted
+    there; one that becomes true just after it is left to a run that starts there.
+
     Examples
     --------
     >>> yield when(self.h < 0, reinit(self.v, -self.e * self.v))  # doctest: +SKIP

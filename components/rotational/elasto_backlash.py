@@ -16,6 +16,8 @@ class ElastoBacklash(HeatLoss, Compliant):
     Notes
     -----
     The damper torque is limited to the spring torque, so that the sum is continuous and never adhesive.
+
+    Between `support` and `axis` of a Revolute it is a stop: the joint is free within b / 2 of phi_rel0.
     """
 
     c: Scalar = parameter("spring constant", unit="N.m/rad", minimum=0)

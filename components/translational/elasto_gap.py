@@ -13,6 +13,9 @@ class ElastoGap(HeatLoss, Compliant):
     Notes
     -----
     The damper force is limited to the spring force, so that the stop is never adhesive.
+
+    The two stops of a Prismatic with a drive are a gap from `support` to `axis` with s_rel0 = s_min, and one from `axis` to
+    `support` with s_rel0 = -s_max.
     """
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
