@@ -125,7 +125,7 @@ def run(words: list[str], path: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_every_block_is_of_a_known_kind() -> None:
-    assert {block.language for block in BLOCKS} == {"python", "text", "command"}
+    assert {block.language for block in BLOCKS} == {"python", "text", "command", "modelica"}
     assert {block.mark for block in BLOCKS} <= {"", *MARKS}
     assert len(BLOCKS) > 50
 
