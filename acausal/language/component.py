@@ -65,6 +65,11 @@ class Component(f.Template):
     ------
     DeclarationError
         If a name is not that of a field, or a value is invalid for its field.
+
+    Notes
+    -----
+    The docstring of a derived class receives sections of its parameters, ports and variables from its fields. That of a
+    class that is only a base of others begins with "Base".
     """
 
     __signature__: ClassVar[Any] = _Signature()

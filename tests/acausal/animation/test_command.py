@@ -67,7 +67,7 @@ def test_chosen_variables_are_plotted(run: Callable[..., Any], tmp_path: Path) -
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("mine.py:Falls", "--animate", "run.mp4"), "ends in .html"),
+        (("mine.py:Falls", "--animate", "run.avi"), "ends in .html"),
         (("mine.py:Falls", "--animate", "no/run.html"), "there is no directory"),
         (("mine.py:Falls", "--animate", "mine.py"), "ends in .html"),
         (("mine.py:Falls", "--animate", "a.png", "--plot", "a.png"), "--plot and --animate both write a.png"),

@@ -169,7 +169,7 @@ def page() -> Iterator[str]:
     yield "# Twins of Modelica's classes\n"
     yield "The classes of Modelica.Mechanics.MultiBody, Rotational and Translational in the Modelica Standard Library"
     yield f"({TAG}), and their counterparts in `components`, without examples, icons, guides, types and internal classes."
-    yield "Written by `python -m tests.reference.msl.twins`; [components](../how-to/write-components.md#the-library)"
+    yield "Written by `python -m tests.reference.msl.twins`; [From Modelica](modelica.md#what-differs)"
     yield "lists the differences.\n"
     left = len(missing())
     yield f"{len(names)} classes: {twins} have a twin, {left} are to come, {len(names) - twins - left} need none."
