@@ -16,22 +16,9 @@ from acausal.errors import DeclarationError
 FOLDER = Path(__file__).with_name("page")
 # Files of the viewer, concatenated in this order: definitions that are used while the script loads come first.
 SCRIPTS = (
-    *(
-        "vectors",
-        "data",
-        "turned",
-        "solids",
-        "tube",
-        "curve",
-        "spans",
-        "mesh",
-        "colours",
-        "stage",
-        "run",
-        "views",
-        "traces",
-    ),
-    *("names", "hover", "clock", "record", "plots", "viewer", "choice", "address", "controls", "main"),
+    *("vectors", "data", "turned", "solids", "tube", "curve", "spans", "mesh", "colours", "stage", "run", "views"),
+    *("traces", "names", "hover", "clock", "record", "plots", "viewer", "choice", "address", "controls"),
+    *("series", "tree", "explorer", "main"),
 )
 
 
@@ -69,7 +56,7 @@ def content(document: dict[str, Any]) -> dict[str, str]:
 
 def player() -> list[str]:
     """Return the page of any document: pieces of HTML, every second one a name in `content`."""
-    three, viewer, style = three_js(), script(), part("viewer.css")
+    three, viewer, style = three_js(), script(), part("viewer.css") + part("explorer.css")
     fixed = {
         "policy": "; ".join(
             (

@@ -115,6 +115,11 @@ class Scene:
         return replace(self, size=size, shapes=with_default_sizes(self.shapes, size))
 
 
+def visible(seen: Sequence[PartShape]) -> bool:
+    """Return whether a shape is a part to be seen, not the ground, a trail or an arrow."""
+    return not all(isinstance(one.shape, g.Ground | g.Trail | g.Arrow) for one in seen)
+
+
 def shapes_of(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[PartShape]]:
     """Return the shapes of models, with the values along curves that are requested or already evaluated.
 
@@ -132,7 +137,7 @@ def shapes_of(trees: Sequence[Component], values: Sequence[str] = ()) -> list[li
     """
     found = [collect(tree) for tree in trees]
     for tree, seen in zip(trees, found, strict=True):
-        if all(isinstance(one.shape, g.Ground | g.Trail | g.Arrow) for one in seen):
+        if not visible(seen):
             raise DeclarationError(
                 f"{type(tree).__name__} cannot be animated: none of its parts has a shape. Yield shapes from shapes(), for "
                 "instance `yield geometry.Sphere(geometry.Pose(self.frame.r_0, self.frame.R.T))`."

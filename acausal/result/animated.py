@@ -116,7 +116,7 @@ def run_of(result: Animatable, options: AnimationOptions = DEFAULT) -> Run:
     plots = [Plot(name, unit, q[index].column) for q in quantities for index, name, unit in q.entries]
     title, stopped = result.title or type(tree).__name__, result.stats.get("stopped")
     trails = [trail_of(tree, key) for key in options.trails]
-    return Run(tree, result.time[places], _at(result, places), plots, title, stopped, trails)
+    return Run(tree, result.time[places], at_places(result, places), plots, title, stopped, trails)
 
 
 def trail_of(tree: Component, key: Key) -> PartShape:
@@ -139,7 +139,7 @@ def trail_of(tree: Component, key: Key) -> PartShape:
     return PartShape(str(key), "trail", geometry.Trail(as_expr([quantity.column[k] for k in range(3)])))
 
 
-def _at(result: Animatable, places: np.ndarray) -> Any:
+def at_places(result: Animatable, places: np.ndarray) -> Any:
     """Return an evaluator at the given times only, to save work if the result supports it."""
     evaluate = result._evaluate
     if len(places) == result.time.size:

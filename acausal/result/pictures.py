@@ -1,4 +1,4 @@
-"""Animations of a result."""
+"""Pictures of a result: animations, and the page that explores it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from acausal.result.lookup import Key
 
 
 class Pictures:
-    """Base of results that can be animated."""
+    """Base of results that can be animated and explored."""
 
     @checked_arguments
     @exclusive
@@ -68,6 +68,34 @@ class Pictures:
 
         options = AnimationOptions(frames, plots, values, title, deformation, trails, size, view, fps)
         write({self.title or self._model: self}, path, options)
+
+    @checked_arguments
+    @exclusive
+    def explore(self: Any, path: str | Path, *, variables: Sequence[str] | None = None, frames: int = 1000) -> None:
+        """Write one page that shows every variable: a tree of the parts, plots, and the moving machine.
+
+        The page needs no network. It is kept below 1.5 MB by fewer times, which it then tells; large meshes may exceed that.
+        Values are exact to 1e-5 of the range of the variable.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file, ending in .html.
+        variables : sequence of str, optional
+            Paths of variables and parameters with * and ?, such as ["crank.*"]; all if not given.
+        frames : int
+            Approximate number of times to which a longer result is thinned, 2 or more.
+
+        Raises
+        ------
+        ExportError
+            If the file cannot be written, before anything is computed.
+        DeclarationError
+            If the result has no times, a pattern matches nothing, or the variables are too many for the page.
+        """
+        from acausal.result.explored import write
+
+        write(self, path, variables, frames)
 
     @exclusive
     def _repr_html_(self: Any) -> str:

@@ -51,8 +51,7 @@ class Result(Pictures):
 
     Examples
     --------
-    >>> result["beam.frame_b.r_0"]  # doctest: +SKIP
-    >>> result[model.beam.frame_b.r_0]  # doctest: +SKIP
+    >>> result["beam.frame_b.r_0"], result[model.beam.frame_b.r_0]  # doctest: +SKIP
     >>> result["beam.volume[2].q"], result["frame_b.R.T[0,1]"]  # doctest: +SKIP
     """
 

@@ -4,6 +4,7 @@ Object.assign(Viewer.prototype, {
   /** Select the part under a click; the clicked point is followed or traced. */
   pick(found) {
     this.choose(found?.part >= 0 ? `${found.run.number}/${found.part}` : "", found);
+    if (found?.part >= 0) this.explorer?.reveal(found.run.parts[found.part].path);
   },
 
   choose(key, found = null) {

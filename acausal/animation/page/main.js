@@ -12,6 +12,7 @@ function sceneOf(runs) {
 
 async function start() {
   const content = JSON.parse($("document").textContent);
+  $("picture").hidden = !content.runs.some((run) => run.shapes.length);
   const stage = new Stage($("picture"), sceneOf(content.runs));
   const runs = [];
   for (const [number, run] of content.runs.entries()) runs.push(await Run.of(stage, run, number, content.looks));
@@ -22,6 +23,7 @@ async function start() {
   stage.renderer?.domElement.addEventListener("webglcontextlost", () => ($("without").hidden = false));
   stage.renderer?.domElement.addEventListener("webglcontextrestored", () => ($("without").hidden = true));
   const viewer = new Viewer(content, stage, runs);
+  if (content.explorer) viewer.explorer = await Explorer.of(viewer, content.explorer);
   viewer.choose("");
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) viewer.clock.play();
   applyAddress(viewer, content.start || "");

@@ -7,11 +7,15 @@ const EDGE = { left: 58, right: 12, top: 8, bottom: 22 };
 class Plots {
   constructor(element, runs, clock) {
     Object.assign(this, { element, runs, clock });
-    this.panels = [];
-    for (const { of, outputs } of this.groups()) this.panels.push(this.panel(of, outputs));
-    element.replaceChildren(...this.panels.map((panel) => panel.figure));
-    element.hidden = !this.panels.length;
+    this.fill();
     new ResizeObserver(() => this.draw()).observe(element);
+  }
+
+  /** Lay out the panels. */
+  fill() {
+    this.panels = this.groups().map(({ of, outputs }) => this.panel(of, outputs));
+    this.element.replaceChildren(...this.panels.map((panel) => panel.figure));
+    this.element.hidden = !this.panels.length;
   }
 
   /** Group outputs of one unit, unless one varies by less than a twentieth of the common range and would look constant. */

@@ -26,8 +26,9 @@ class Stage {
     this.renderer = this.open();
   }
 
-  /** Create the renderer; null without WebGL. */
+  /** Create the renderer; null without WebGL, and where there is nothing to draw. */
   open() {
+    if (this.element.hidden) return null;
     try {
       const canvas = document.createElement("canvas");
       // Checked first: without WebGL the renderer reports an error on the console.

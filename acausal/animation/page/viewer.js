@@ -38,6 +38,7 @@ class Viewer {
     this.stage.render();
     this.axisNames.update();
     this.plots.update();
+    this.explorer?.update();
     showState(this);
   }
 
