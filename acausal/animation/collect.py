@@ -41,10 +41,11 @@ def collect(component: Component) -> list[PartShape]:
     DeclarationError
         If shapes() fails, or yields anything but shapes and parts.
     """
-    return list(_collected(component, set()))
+    return list(collected(component, set()))
 
 
-def _collected(component: Component, visited: set[int]) -> Iterator[PartShape]:
+def collected(component: Component, visited: set[int]) -> Iterator[PartShape]:
+    """Yield the shapes of a bound model one by one, as `collect`; `visited` are the ids of parts that are done."""
     if id(component) in visited:
         return
     visited.add(id(component))
@@ -55,7 +56,7 @@ def _collected(component: Component, visited: set[int]) -> Iterator[PartShape]:
     shapes = iter(found)
     while (item := call_user_code(lambda: next(shapes, None), path, kind)) is not None:
         if isinstance(item, Component):
-            yield from _collected(item, visited)
+            yield from collected(item, visited)
         elif isinstance(item, Shape):
             _check_words(component, item)
             yield PartShape(path, kind, item)

@@ -54,12 +54,14 @@ def document(
     return document_of(scenes(runs, values), values, title, deformation)
 
 
-def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Scene]:
+def scenes(
+    runs: Mapping[str, Run], values: Sequence[str] = (), shapes: Sequence[list[PartShape]] | None = None
+) -> dict[str, Scene]:
     """Return the evaluated runs, with the default sizes of the largest one, and without values that are 0 everywhere.
 
-    Requested values are kept.
+    Requested values are kept. `shapes` are those of `shapes_of`, if they are known.
     """
-    seen = shapes_of([run.tree for run in runs.values()], values)
+    seen = shapes_of([run.tree for run in runs.values()], values) if shapes is None else shapes
     found = {name: scene_of(run, [*own, *run.trails]) for (name, run), own in zip(runs.items(), seen, strict=True)}
     size = max(scene.size for scene in found.values())
     names = {v.name for scene in found.values() for v in scene.values() if np.any(v.entries)}.union(values)

@@ -115,9 +115,9 @@ class Scene:
         return replace(self, size=size, shapes=with_default_sizes(self.shapes, size))
 
 
-def visible(seen: Sequence[PartShape]) -> bool:
-    """Return whether a shape is a part to be seen, not the ground, a trail or an arrow."""
-    return not all(isinstance(one.shape, g.Ground | g.Trail | g.Arrow) for one in seen)
+def visible(seen: Iterable[PartShape]) -> bool:
+    """Return whether a shape is more than the ground, a trail or an arrow."""
+    return any(not isinstance(one.shape, g.Ground | g.Trail | g.Arrow) for one in seen)
 
 
 def shapes_of(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[PartShape]]:

@@ -84,11 +84,13 @@ def quantised(table: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def differences(codes: np.ndarray) -> bytes:
-    """Return second differences of the codes along each row, modulo 2**16, near 0 small and positive, high bytes last.
+    """Return third differences of the codes along each row, modulo 2**16: near 0 small and positive, low bytes first.
 
-    Codes of smooth curves then have high bytes of 0, which compress well.
+    The high bytes of smooth curves are 0 and compress well.
     """
-    twice = np.diff(np.diff(codes, axis=1, prepend=codes.dtype.type(0)), axis=1, prepend=codes.dtype.type(0))
-    signed = twice.astype("<i2")
+    thrice = codes
+    for _ in range(3):
+        thrice = np.diff(thrice, axis=1, prepend=codes.dtype.type(0))
+    signed = thrice.astype("<i2")
     small = ((signed << 1) ^ (signed >> 15)).astype("<u2")
     return small.view(np.uint8).reshape(-1, 2).T.tobytes()

@@ -142,6 +142,10 @@ def simulate(
             help="Write an animation: a page for any browser, or FILE.gif, FILE.mp4, FILE.png.", metavar="FILE.html"
         ),
     ] = None,
+    explore: Annotated[
+        str | None,
+        typer.Option(help="Write a page with the tree of parts, plots and animation.", metavar="FILE.html"),
+    ] = None,
     values: Annotated[
         list[str] | None,
         typer.Option(
@@ -174,8 +178,8 @@ def simulate(
 
         look = {"values": tuple(values or ()), "deformation": deformation, "trails": tuple(trails or ())}
         look |= {"view": view, "size": read_size(size), "fps": fps}
-        files = Files(scene, csv, plot, json, standard_output, animate, look)
-        check_outputs((file_of(scene), effects), csv=csv, plot=plot, animate=animate, json=json)
+        files = Files(scene, csv, plot, json, standard_output, animate, look, explore)
+        check_outputs((file_of(scene), effects), csv=csv, plot=plot, animate=animate, explore=explore, json=json)
         cls = find_scene(scene)
         model, given = make_scene(scene, cls, settings, effects)
         how = {

@@ -47,6 +47,10 @@ def check_outputs(reads: Iterable[str | None], **writes: str | None) -> None:
             from acausal.result.animated import check_animation
 
             check_animation(path)
+        elif option == "--explore":
+            from acausal.result.explored import check_explorer
+
+            check_explorer(path)
         elif (option, path) != ("--json", "-"):
             check_writable(path)
     for (one, first), (other, second) in combinations(files, 2):
@@ -65,7 +69,7 @@ class Files:
     ----------
     scene : str
         Name of the scene, for the JSON document.
-    csv, plot, json : str or None
+    csv, plot, json, explore : str or None
         Names of files; `json` may be "-".
     standard_output : text stream
         The stream for `json` "-".
@@ -82,6 +86,7 @@ class Files:
     standard_output: IO[str]
     animate: str | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
+    explore: str | None = None
 
     def check(self, tree: Tree) -> None:
         """Check that the model has visible parts, and what the options of the animation name."""
@@ -91,6 +96,10 @@ class Files:
             options = AnimationOptions(**self.options)
             options.check(self.animate)
             check_visible(tree, options)
+        if self.explore is not None:
+            from acausal.result.explored import check_shapes
+
+            check_shapes(tree)
 
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:
         """Write outputs and chosen variables; `more` goes into the JSON document."""
@@ -105,6 +114,8 @@ class Files:
             )
         if self.animate:
             result.animate(self.animate, plots=chosen, **self.options)
+        if self.explore:
+            result.explore(self.explore, variables=[*result.outputs, *chosen] if chosen else None)
 
 
 def write_json(document: Mapping[str, Any], path: str, standard_output: IO[str]) -> None:

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from acausal.animation.collect import collect
+from acausal.animation.collect import PartShape, collect, collected
 from acausal.animation.columns import encode
 from acausal.animation.document import document_of, scenes
 from acausal.animation.frames import select_frames
 from acausal.animation.page import html
-from acausal.animation.scene import Run, Scene, visible
+from acausal.animation.scene import Run, Scene, shapes_of, visible
 from acausal.animation.series import Series
 from acausal.errors import DeclarationError, ExportError
 from acausal.language.component import Component
@@ -23,7 +23,7 @@ from acausal.language.value_checks import shown as code
 from acausal.result.animated import PAGES, at_places
 from acausal.result.event_marks import event_marks
 from acausal.result.files import check_writable, shown_name, whole
-from acausal.result.lookup import Key, Quantity, match
+from acausal.result.lookup import Key, Quantity, Tree, match
 from acausal.result.part_tree import part_tree
 from acausal.result.snapshot import AT_ONCE, Snapshot
 from acausal.symbols import stacked
@@ -31,6 +31,7 @@ from acausal.symbols import stacked
 # Characters of a page. A page with large meshes has at least ROOM for the numbers that vary with time.
 BUDGET, ROOM = 1_500_000, 250_000
 FEWEST = 100  # times to which a result is thinned for the budget
+DENSER = 1.4  # exponent of the number of times over that of the characters
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,12 @@ def check_options(variables: Sequence[str] | None, frames: int) -> None:
         raise DeclarationError(f'variables is a list, such as ["crank.*"], not {code(variables)}.')
 
 
+def check_shapes(tree: Tree) -> None:
+    """Raise DeclarationError if shapes() of a part fails; a model without visible parts is explored without a picture."""
+    if isinstance(tree, Component):
+        collect(tree)
+
+
 def _with_events(places: np.ndarray, time: np.ndarray, events: Sequence[float], frames: int) -> np.ndarray:
     """Add the times around events, unless they are more than the frames."""
     after = np.searchsorted(time, events)
@@ -108,12 +115,15 @@ class _Page:
         The values at these times.
     model : dict
         Tree of the parts, events and first plots.
+    shapes : list of PartShape
+        Shapes of the picture; none if no part is visible.
     """
 
     result: Any
     places: np.ndarray
     series: Series
     model: dict[str, Any]
+    shapes: list[PartShape]
 
     @classmethod
     def of(cls, result: Any, quantities: Sequence[Quantity], places: np.ndarray) -> _Page:
@@ -132,7 +142,8 @@ class _Page:
             "events": event_marks(result.time[places], stats.event_times, stats.break_times, changing.values()),
             "plots": [name for output in result.outputs for _, name, _ in result._find(output).entries],
         }
-        return cls(result, places, series, model)
+        seen = isinstance(result.tree, Component) and visible(collected(result.tree, set()))
+        return cls(result, places, series, model, shapes_of([result.tree])[0] if seen else [])
 
     def fitting(self) -> str:
         """Return the page with as many of the times as the budget allows.
@@ -156,7 +167,8 @@ class _Page:
                     f"times; {BUDGET / 1e6:g} MB are its limit. Choose variables, as in "
                     'result.explore("FILE.html", variables=["crank.*", "*.phi"]), or on the command line --variables PATTERN.'
                 )
-            count = max(min(int(0.97 * count * limit / numbers), count - 1), FEWEST)
+            # Numbers farther apart compress less: half as many take more than half of the characters.
+            count = max(min(int(count * (limit / numbers) ** DENSER), count - 1), FEWEST)
 
     def document(self, own: np.ndarray) -> dict[str, Any]:
         """Return the document at some of the times.
@@ -169,8 +181,7 @@ class _Page:
         places, result = self.places[own], self.result
         tree, title, time = result.tree, _title(result), result.time[places]
         run = Run(tree, time, at_places(result, places), (), title, result.stats.get("stopped"))
-        seen = isinstance(tree, Component) and visible(collect(tree))
-        found = scenes({title: run}) if seen else {title: _without_picture(run)}
+        found = scenes({title: run}, shapes=[self.shapes]) if self.shapes else {title: _without_picture(run)}
         model = {**self.model, "note": self._note(len(own))}
         text = json.dumps(model, allow_nan=False, separators=(",", ":"))
         explorer = {"time": encode(time), "series": self.series.document(own), "model": encode(text.encode())}

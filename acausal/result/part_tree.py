@@ -6,6 +6,8 @@ import inspect
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from acausal.flatten.component_tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component
@@ -14,6 +16,7 @@ from acausal.result.lookup import Quantity, Tree
 
 # Members of a part in the tree.
 VARIABLES, PARAMETERS, PARTS = "variables", "parameters", "parts"
+LISTED = 9  # entries of a structural array up to which they are told
 
 
 def part_tree(tree: Tree, quantities: Mapping[str, tuple[Quantity, Sequence[int]]], title: str) -> dict[str, Any]:
@@ -69,7 +72,13 @@ def _quantity(name: str, quantity: Quantity, numbers: Sequence[int], declared: f
 def _structural(component: Component) -> list[dict[str, str]]:
     """Return the structural parameters and effects of a part, whose values are texts."""
     return [
-        {"name": name, "about": declared.description, "value": shown_or_kind(getattr(component, name))}
+        {"name": name, "about": declared.description, "value": _text(getattr(component, name))}
         for name, declared in component.fields.items()
         if isinstance(declared, f.Structural)
     ]
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, np.ndarray) and value.ndim == 1 and value.size <= LISTED:
+        return f"[{', '.join(f'{x:g}' for x in value)}]"
+    return value if isinstance(value, str) else shown_or_kind(value)

@@ -18,15 +18,16 @@ class Series extends Columns {
     return columns;
   }
 
-  /** Sum the differences of the codes twice; the low bytes of all come first, then the high bytes. */
+  /** Sum the differences of the codes three times; the low bytes of all come first, then the high bytes. */
   fill(bytes, low, step) {
     const count = this.varying * this.frames;
     for (let row = 0; row < this.varying; row++) {
-      let [slope, code] = [0, 0];
+      let [second, first, code] = [0, 0, 0];
       for (let i = row * this.frames; i < (row + 1) * this.frames; i++) {
         const small = bytes[i] + 256 * bytes[count + i];
-        slope += (small >> 1) ^ -(small & 1);
-        code = (code + slope) & 0xffff;
+        second += (small >> 1) ^ -(small & 1);
+        first += second;
+        code = (code + first) & 0xffff;
         this.data[i] = code === 0xffff ? NaN : low[row] + step[row] * code;
       }
     }
@@ -35,9 +36,5 @@ class Series extends Columns {
   /** Number of a variable among the columns; constants are numbered by complements. */
   column(number) {
     return number >= 0 ? number : this.varying + ~number;
-  }
-
-  varies(number) {
-    return number >= 0;
   }
 }

@@ -1,7 +1,6 @@
 // Tree of the parts: variables, entries of arrays, parameters and events, with a filter.
 
 const MOST_ROWS = 500;
-const MANY_ENTRIES = 64; // entries of an array that the filter searches by name
 
 /** A row of the tree: a part, a variable, an entry, a text or an event. */
 class TreeNode {
@@ -14,7 +13,7 @@ class TreeNode {
 
   /** TreeNode of a part with everything in it. */
   static part(part, parent = null) {
-    const node = new TreeNode(parent, part.name, { type: part.type, about: part.about ?? "" });
+    const node = new TreeNode(parent, part.name, { type: part.type, about: part.about ?? "", ...(parent ? {} : { path: "" }) });
     for (const one of part.variables ?? []) node.children.push(TreeNode.variable(one, node));
     for (const one of part.parts ?? []) node.children.push(TreeNode.part(one, node));
     for (const one of part.parameters ?? []) node.children.push(TreeNode.variable(one, node, true));
@@ -26,6 +25,7 @@ class TreeNode {
     const node = new TreeNode(parent, name, { about, value, parameter, unit: units ? "" : unit });
     if (columns && !shape.length) node.column = columns[0];
     if (shape.length) {
+      node.shape = shape;
       node.children = columns.map((column, k) => {
         const index = shape.length === 1 ? [k] : [Math.floor(k / shape[1]), k % shape[1]];
         const label = `[${index.join(",")}]`;
@@ -93,7 +93,7 @@ class Tree {
     this.found = words.length ? new Map() : null;
     let count = 0;
     const visit = (node) => {
-      const entries = !node.leaf() && node.children[0].name.startsWith("[");
+      const entries = Boolean(node.shape);
       const hits = entries && named(node) ? [] : node.children.filter(visit);
       const hit = named(node);
       if (hit && !hits.length) count += node.leaf() || entries ? 1 : 0;
@@ -123,7 +123,7 @@ class Tree {
     const open = this.isOpen(node);
     const mark = make("span", { className: node.leaf() ? "mark" : "twist" });
     const name = make("span", { className: "name", textContent: node.name });
-    const value = make("span", { className: "value", textContent: node.value ?? node.type ?? "" });
+    const value = make("span", { className: "value", textContent: node.value ?? node.count ?? node.type ?? "" });
     const element = make("div", { title: this.tip(node), tabIndex: node === this.current ? 0 : -1 }, [mark, name, value]);
     element.setAttribute("role", "treeitem");
     element.setAttribute("aria-level", node.level);
@@ -132,35 +132,33 @@ class Tree {
     element.dataset.row = k;
     element.dataset.path = node.path;
     element.classList.toggle("parameter", Boolean(node.parameter));
+    element.classList.toggle("event", node.time !== undefined);
     element.style.setProperty("--level", node.level - 1);
     const colour = this.colours.get(node.path);
     if (colour) mark.style.background = colour;
-    if (node.column === undefined && !node.leaf() && !node.type) this.preview(node, value);
     return { node, element, value };
-  }
-
-  /** Tell the size of an array, or the entries of a short constant one. */
-  preview(node, value) {
-    const { columns } = this;
-    const constant = node.children.length <= 3 && node.children.every((child) => child.column !== undefined && !columns.varies(child.column));
-    if (constant) {
-      const texts = node.children.map((child) => formatNumber(columns.at(columns.column(child.column)), 3));
-      value.textContent = `[${texts.join(", ")}]${unitText(node.unit)}`;
-    } else value.textContent = node.count ?? "";
   }
 
   tip(node) {
     const unit = node.unit && node.unit !== "1" ? ` [${node.unit}]` : "";
-    return [node.path + unit, node.about].filter(Boolean).join("\n");
+    return [(node.time === undefined ? node.path : node.name) + unit, node.about].filter(Boolean).join("\n");
   }
 
   /** Show the values at the current time. */
   update() {
     for (const { node, value } of this.rows) {
-      if (node.column === undefined) continue;
-      const text = formatNumber(this.columns.at(this.columns.column(node.column)), 4) + unitText(node.unit);
-      if (value.textContent !== text) value.textContent = text;
+      const text = this.reading(node);
+      if (text !== null && value.textContent !== text) value.textContent = text;
     }
+  }
+
+  /** Value of a scalar or a short vector at the current time, size of another array; null for other rows. */
+  reading(node) {
+    const number = (one, digits) => formatNumber(this.columns.at(this.columns.column(one.column)), digits);
+    if (node.column !== undefined) return number(node, 4) + unitText(node.unit);
+    if (!node.shape) return null;
+    if (node.children.length > 3) return node.shape.join(" \u00d7 ");
+    return `[${node.children.map((one) => number(one, 3)).join(", ")}]${unitText(node.unit)}`;
   }
 
   press(node) {
