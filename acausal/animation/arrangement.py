@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal.animation import geometry as g
+from acausal.animation.camera import horizontal
 from acausal.animation.collect import PartShape
 
 # Points coincide at the start if they are nearer than this fraction of the scene: the tolerance of a run.
@@ -67,7 +68,8 @@ def _axis(axle: g.Axle, axles: Sequence[g.Axle], ends: Sequence[End], up: np.nda
         if joint.style == "hinge":
             axis = joint.axis @ joint.pose.T[0]
             # The wall is behind or below what is seen from the front.
-            front = np.array([0.1, 0.2, 0.4]) + up
+            right = horizontal(up)
+            front = up + np.cross(right, up) / 2 + right / 4
             return axle.pose.T[0] @ (axis if axis @ front > 0 else -axis)
     found = [-end.direction for end in ends if near(end.point, here, size)]
     return axle.pose.T[0] @ (found[0] if found else up) if found or joints else None

@@ -73,6 +73,14 @@ def test_chosen_variables_are_plotted(run: Callable[..., Any], tmp_path: Path) -
         (("mine.py:Falls", "--animate", "a.png", "--plot", "a.png"), "--plot and --animate both write a.png"),
         (("mine.py:Nothing", "--animate", "a.html"), "Nothing cannot be animated"),
         (("mine.py:Falls", "--animate", "a.html", "--deformation", "0"), "deformation is a number from 1 to 1000"),
+        (("mine.py:Falls", "--animate", "a.html", "--view", "left"), "view is front, top, right or iso, not 'left'"),
+        (("mine.py:Falls", "--animate", "a.html", "--size", "800x600"), "a page is as large as its window"),
+        (("mine.py:Falls", "--animate", "a.gif", "--size", "80"), "--size 800x600"),
+        (("mine.py:Falls", "--animate", "a.gif", "--size", "8x60"), "each 64 to 4096, not (8, 60)"),
+        (("mine.py:Falls", "--animate", "a.png", "--fps", "20"), "fps is for .gif and .mp4"),
+        (("mine.py:Falls", "--animate", "a.gif", "--fps", "100"), "from 1 to 50, not 100"),
+        (("mine.py:Falls", "--animate", "a.gif", "--trails", "y"), "there is no `y`"),
+        (("mine.py:Falls", "--animate", "a.gif", "--trails", "x"), "trails: x is not a point"),
         (
             ("mine.py:Falls", "--animate", "a.html", "--values", "stress"),
             'no curve of the animation has values "stress"',
@@ -82,6 +90,7 @@ def test_chosen_variables_are_plotted(run: Callable[..., Any], tmp_path: Path) -
 def test_refused_before_any_work(
     run: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], said: str
 ) -> None:
+    monkeypatch.setattr("shutil.which", lambda _: None)
     monkeypatch.setattr("acausal.simulate", lambda *_, **__: pytest.fail("it was simulated"))
     done = run(*arguments)
     assert done.exit_code == 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,11 @@ from PIL import Image
 
 import acausal as ac
 from acausal import Model, Scalar, geometry, output
-from acausal.animation.camera import Camera, camera
+from acausal.animation.camera import VIEWS, Camera, camera, standard
 from acausal.animation.document import scenes
 from acausal.animation.drawing import Drawing, Polygon
 from acausal.animation.tube import PIECES, sections
-from acausal.result.animated import run_of
+from acausal.result.animated import AnimationOptions, run_of
 from acausal.result.films import _speed
 
 FRONT = Camera(np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]))
@@ -207,3 +208,65 @@ def test_one_moment_is_a_picture(tmp_path: Path) -> None:
     one.animate(tmp_path / "one.gif")
     one.animate(tmp_path / "one.html")
     assert Image.open(io.BytesIO((tmp_path / "one.png").read_bytes())).width == 640
+
+
+@pytest.mark.parametrize("up", [(0, 1, 0), (0, 0, 1), (-1, 0, 0)])
+@pytest.mark.parametrize("name", VIEWS)
+def test_standard_views_are_right_handed_and_upright(name: str, up: tuple[int, ...]) -> None:
+    axes = standard(name, np.array(up, dtype=float)).axes
+    assert axes @ axes.T == pytest.approx(np.eye(3))
+    assert np.linalg.det(axes) == pytest.approx(1)
+    seen = axes @ up
+    assert seen[0] == pytest.approx(0, abs=1e-12)
+    assert (seen[2] > 0.99) if name == "top" else (seen[1] > 0.8)
+
+
+@pytest.mark.parametrize("size", [(200, 151), (64, 300), (900, 100)])
+def test_pictures_have_the_wanted_size(orbit: ac.Result, tmp_path: Path, size: tuple[int, int]) -> None:
+    """Every kind of picture: with the whole scene in it, whatever its shape."""
+    for name, more in (("film.gif", {"fps": 10}), ("still.png", {})):
+        orbit.animate(tmp_path / name, size=size, view="iso", **more)
+        picture = Image.open(tmp_path / name)
+        assert picture.size == size
+        shown = np.asarray(picture.convert("L"))
+        assert (shown < 200).any()
+    assert Image.open(tmp_path / "film.gif").n_frames == 30
+
+
+def test_trails_are_the_paths_up_to_now(orbit: ac.Result) -> None:
+    here = geometry.Trail((3 * ac.cos(orbit.tree.angle), 3 * ac.sin(orbit.tree.angle), 0))
+    run = run_of(orbit, AnimationOptions(trails=[ac.as_expr(here.at)]))
+    (scene,) = scenes({"orbit": run}).values()
+    scene.shapes[:] = [one for one in scene.shapes if isinstance(one.shape, geometry.Trail)]
+    for k in (0, 17, 60):
+        polygons = Drawing(scene, FRONT).frame(k)
+        assert len(polygons) == k
+        for p in polygons:
+            assert np.linalg.norm(p.corners, axis=1) == pytest.approx(3, abs=0.05)
+            assert np.arctan2(*p.corners.mean(axis=0)[::-1]) % (2 * np.pi) < orbit.time[k]
+
+
+FFMPEG = """#!/bin/sh
+for last; do :; done
+{action}
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="the program is a shell script")
+@pytest.mark.parametrize("fails", [False, True])
+def test_movies_are_written_by_ffmpeg(
+    orbit: ac.Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, fails: bool
+) -> None:
+    """A stand-in for ffmpeg writes what it is given: whole frames of the wanted size."""
+    program = tmp_path / "ffmpeg"
+    program.write_text(FFMPEG.format(action="echo no codec >&2; exit 1" if fails else 'cat > "$last"'))
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
+    film = tmp_path / "film.mp4"
+    if fails:
+        with pytest.raises(ac.ExportError, match="ffmpeg cannot write the film: no codec"):
+            orbit.animate(film, size=(64, 64))
+        assert not film.exists()
+    else:
+        orbit.animate(film, size=(80, 64), fps=10)
+        assert film.stat().st_size == 30 * 80 * 64 * 3

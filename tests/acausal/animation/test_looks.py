@@ -130,6 +130,15 @@ def test_parts_that_never_move_keep_their_colours() -> None:
 def test_supports_stand_behind_what_they_hold(held: Any, axis: tuple[float, ...]) -> None:
     for support in (one.shape for one in shows(held, geometry.Axle(at(0), None, style="support"))[1:]):
         assert support.axis / np.linalg.norm(support.axis) == pytest.approx(axis)
+
+
+def test_the_wall_of_a_hinge_is_behind_the_front_view() -> None:
+    hinge, ground = geometry.Axle(at(0), (0, 1, 0)), geometry.Ground((0, 0, 1))
+    *_, support = shows(ground, hinge, geometry.Axle(at(0), None, style="support"))
+    assert support.shape.axis == pytest.approx([0, -1, 0])
+
+
+def test_supports_that_hold_nothing_are_not_drawn() -> None:
     free = shows(geometry.Sphere(at(1), diameter=1), geometry.Axle(at(0), None, style="support"))
     assert [type(one.shape) for one in free] == [g.Sphere]
 
