@@ -54,8 +54,7 @@ class Scene(SphinxDirective):
             self._draw(result, folder / f"{name}.png")
             if "warns" in self.options:
                 warnings.simplefilter("ignore")
-            if "plot" not in self.options:
-                getattr(result, "explore", result.animate)(folder / f"{name}.html")
+            result.explore(folder / f"{name}.html")
         return result
 
     def _parameters(self) -> dict[str, Any]:
