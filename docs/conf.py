@@ -49,6 +49,6 @@ def setup(app: Any) -> None:
 
     logging.getLogger("skfem").setLevel(logging.WARNING)
 
-    app.connect("autodoc-process-docstring", escape, priority=900)
+    app.connect("autodoc-process-docstring", escape, priority=100)  # before napoleon
     Path(app.srcdir, scenes.FOLDER).mkdir(parents=True, exist_ok=True)
     app.connect("builder-inited", lambda app: components.write(Path(app.srcdir, "components")))
