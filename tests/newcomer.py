@@ -1,7 +1,7 @@
 """`python -m tests.newcomer`: the way of a newcomer, in a fresh environment, with the time of each step.
 
-It installs the project, runs the first commands of the README, the tutorial and three how-to pages, and builds the site. It ends with
-an error at the first step that fails or prints a warning.
+It installs the project, runs the first commands of the README, the tutorial and three how-to pages, and builds the site.
+It ends with an error at the first step that fails or prints a warning.
 """
 
 from __future__ import annotations
