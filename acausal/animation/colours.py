@@ -16,6 +16,7 @@ STEEL, BRIGHT, DARK, BASE, RUBBER = "#6f7886", "#b4bcc6", "#565f6c", "#a3abb6", 
 FIXED, ROD, COIL, ROPE = "#8d949e", "#8f99a8", "#c08a3e", "#a07a50"
 ARROWS = {"force": "#d8504d", "torque": "#8e4ec6"}
 TRAIL = "#d0408a"
+DIVERGING = ("#1f5fd0", "#5f9cf0", "#a9c4ea", "#c9c9c9", "#f0b59a", "#ea7a55", "#c8263b")  # of values, as on the page
 SPANS = {"rod": ROD, "rail": STEEL, "coil": COIL, "damper": STEEL, "rope": ROPE}
 # Shapes belong to one rigid body if they move relative to each other by less than this fraction of the scene, and this angle in
 # rad: the tolerance of a run. So many frames are compared.

@@ -18,6 +18,7 @@ from acausal.animation.turned import faces, normal_to, rings
 
 GRID = "#d9dee6"
 ARROW = 0.25  # length of the longest arrow, relative to the size of the scene
+SEEN = 0.02  # shortest arrow that counts, relative to the longest
 LINES = 8  # grid spacings within the diagonal of the scene
 SIDES, TURNS = 32, 9  # corners of a circle, turns of a coil
 TRAIL = 0.0018  # half the width of a trail, relative to the size of the scene
@@ -72,6 +73,15 @@ class Drawing:
         ]
         return max(lengths, default=0.0)
 
+    def shows(self, quantity: str) -> bool:
+        """Return whether an arrow of a quantity is seen, other than along the view."""
+        seen = [
+            float(np.max(np.linalg.norm(self.view.project(one.shape.vector)[:, :2], axis=1)))
+            for one in self.scene.shapes
+            if isinstance(one.shape, g.Arrow) and one.shape.quantity == quantity
+        ]
+        return max(seen, default=0.0) > SEEN * self.longest[quantity]
+
     def frame(self, k: int) -> list[Polygon]:
         """Return the polygons of frame k, without the ground."""
         found = [
@@ -96,7 +106,7 @@ class Drawing:
             for along, across in (sides, sides[::-1]):
                 end = middle + k * step * across
                 ends = np.array([end - LINES / 2 * step * along, end + LINES / 2 * step * along])
-                yield from self.strip(ends, 0.002 * scene.size, rgb(GRID))
+                yield from self.strip(ends, 0.0012 * scene.size, rgb(GRID))
 
     def strip(self, points: np.ndarray, radius: Any, colour: np.ndarray) -> Pieces:
         """Yield a line through points of the world: `radius` is half its width, or (n,); `colour` (3,), or (n - 1, 3)."""
@@ -118,8 +128,8 @@ class Drawing:
             self.disc(points[0], radius[0], colour.reshape(-1, 3)[0]),
             self.disc(points[-1], radius[-1], colour.reshape(-1, 3)[-1]),
         )
-        yield from self.strip(points, radius, colour)
-        nearer = points + radius[:, None] * self.view.axes[2]
+        nearer = points + radius[:, None] * self.view.axes[2]  # of the surface, which is what hides or is hidden
+        yield from self.strip(nearer, radius, colour)
         yield from self.strip(nearer, radius / 2, 0.75 * colour + 0.25)
 
     def disc(self, center: np.ndarray, radius: float, colour: np.ndarray) -> Polygon:

@@ -15,7 +15,7 @@ from acausal.animation.collect import PartShape
 # Default sizes as fractions of the detail: the smaller of the size of the scene and LONG times the median length of its parts.
 LONG = 3.0
 SPHERE, TUBE = 0.045, 0.006
-CYLINDER = {"plain": 0.03, "link": 0.032, "wheel": 0.2, "guide": 0.016, "shaft": 0.016, "screw": 0.024}
+CYLINDER = {"plain": 0.03, "link": 0.032, "wheel": 0.2, "guide": 0.012, "shaft": 0.012, "screw": 0.024}
 SPAN = {"rod": 0.014, "rail": 0.016, "coil": 0.05, "damper": 0.026, "rope": 0.006}
 # Length and diameter of the parts of joints, beside a part of the thickness THICK.
 AXLE = {

@@ -11,7 +11,7 @@ from acausal.animation.looks import Layer, corners_of
 
 # Films draw whole faces by the depth of their centres: so long ones are divided into pieces of this length in diameters, at most
 # PIECES, and circles have no more corners than this.
-PIECE, PIECES, SIDES = 3.0, 8, 20
+PIECE, PIECES, SIDES = 1.0, 40, 20
 
 
 def rings(layer: Layer, start: np.ndarray, end: np.ndarray, side: np.ndarray, diameter: float) -> Iterator[np.ndarray]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from acausal.animation.camera import camera, standard
-from acausal.animation.colours import ARROWS
+from acausal.animation.colours import ARROWS, DIVERGING
 from acausal.animation.drawing import Drawing, Polygon, rgb
 from acausal.animation.scene import ALL, Scene, corners
 from acausal.errors import ExportError
@@ -23,14 +23,15 @@ from acausal.result.plots import DPI, canvas
 
 WIDTH, LEAST, MOST = 640, 240, 560  # width, and limits of the height, in pixels
 MARGIN = 0.06  # fraction of the width
-TITLE, LETTERS = 50, (0.5, 4.0)  # height of the title in pixels at the usual width; limits of the scale of letters
+TITLE, BAR = 50, 60  # heights of the title and of the colour bar in pixels at the usual width
+LETTERS = 0.5, 4.0  # limits of the scale of letters
 RATE, MOVIE_RATE = 20, 30  # frames per second of .gif and .mp4
 UNITS = {"force": "N", "torque": "N.m"}
 SHORTEST, LONGEST, USUAL = 2.0, 10.0, 6.0  # seconds of a film that plays in real time; seconds otherwise
 MOMENTS = 5  # instants in a still
 FAINT = 0.75  # fraction of white mixed into the earliest instant, and into all runs but the first
 NEARLY_WHITE = 245  # of 255: brighter colours of the palette become white
-COLOURS, SAMPLES = 128, 8  # size of the palette, and number of frames from which it is computed
+COLOURS, SAMPLES = 256, 8  # size of the palette, and number of frames from which it is computed
 OTHERS = ("#2f6fdf", "#d1495b", "#2a9d78", "#a05fc9")
 
 
@@ -155,29 +156,31 @@ class _Picture:
         up = self.scenes[0].up
         self.view = standard(options.view, up) if options.view else camera(low, high, up)
         self.span = float(min(s.run.time[0] for s in self.scenes)), float(max(s.run.time[-1] for s in self.scenes))
-        self._lay_out(low, high, options.size)
         by = options.values[0] if options.values and options.values[0] != ALL else ""
+        self._lay_out(low, high, options.size, BAR if by else 0)
         colours = self._colour_bar(by)
         self.drawings = [Drawing(scene, self.view, colours, by, options.deformation) for scene in self.scenes]
         more = f"   (deformation x {options.deformation:g})" if options.deformation != 1 else ""
         self._title((options.title or self.scenes[0].run.title) + more, list(scenes))
         self._arrow_scale()
 
-    def _lay_out(self, low: np.ndarray, high: np.ndarray, wanted: tuple[int, int] | None) -> None:
+    def _lay_out(self, low: np.ndarray, high: np.ndarray, wanted: tuple[int, int] | None, bar: int) -> None:
         from matplotlib.collections import PolyCollection
 
         seen = self.view.project(corners(low, high))[:, :2]
         middle, size = (seen.min(axis=0) + seen.max(axis=0)) / 2, np.ptp(seen, axis=0) + 0.1 * self.scenes[0].size
-        fitting = WIDTH, int(np.clip(WIDTH * size[1] / size[0], LEAST, MOST)) // 2 * 2
+        fitting = WIDTH, int(np.clip(WIDTH * size[1] / size[0] + bar, LEAST, MOST)) // 2 * 2
         width, height = wanted or fitting
         self.letter = float(np.clip(min(width / WIDTH, height / LEAST), *LETTERS))
-        scale = max(size[0] / width, size[1] / (height - min(TITLE * self.letter, height / 4))) / (1 - 2 * MARGIN)
+        below, above = bar * self.letter, min(TITLE * self.letter, height / 4)
+        scale = max(size[0] / width, size[1] / max(height - above - below, height / 4)) / (1 - 2 * MARGIN)
         self.figure = canvas(width / DPI, height / DPI, "tight")
         self.figure.set_layout_engine("none")
         self.axes = self.figure.add_axes((0, 0, 1, 1))
         self.axes.set_axis_off()
         self.axes.set_xlim(middle[0] - width / 2 * scale, middle[0] + width / 2 * scale)
-        self.axes.set_ylim(middle[1] - height / 2 * scale, middle[1] + height / 2 * scale)
+        lowest = middle[1] - (height + below - above / 2) / 2 * scale
+        self.axes.set_ylim(lowest, lowest + height * scale)
         self.shown = PolyCollection([], antialiaseds=True, linewidths=0.3)
         self.axes.add_collection(self.shown, autolim=False)
         self.time = self._text(0.98, 0.97, "", 6, ha="right", va="top")
@@ -197,7 +200,7 @@ class _Picture:
         place = 0.02
         for quantity, unit in UNITS.items():
             longest = max(drawing.longest[quantity] for drawing in self.drawings)
-            if longest > 0:
+            if any(drawing.shows(quantity) for drawing in self.drawings):
                 self._text(
                     0.02, place, f"longest {quantity} {longest:.3g} {unit}", 6, color=ARROWS[quantity], va="bottom"
                 )
@@ -209,10 +212,10 @@ class _Picture:
         if not found:
             return None
         from matplotlib.cm import ScalarMappable
-        from matplotlib.colors import Normalize
+        from matplotlib.colors import LinearSegmentedColormap, Normalize
 
         most = max(float(np.max(np.abs(v.entries))) for v in found) or 1.0
-        mapped = ScalarMappable(Normalize(-most, most), "turbo")
+        mapped = ScalarMappable(Normalize(-most, most), LinearSegmentedColormap.from_list("", DIVERGING))
         place = self.figure.add_axes((0.68, 0.1, 0.28, 0.02))
         bar = self.figure.colorbar(mapped, cax=place, orientation="horizontal", ticks=[-most, 0, most], format="%.2g")
         bar.ax.set_title(f"{by} [{found[0].unit}]", fontsize=6 * self.letter)

@@ -6,7 +6,7 @@ const GHOST = ["#3d6fd0", "#e0218a", "#7a3ff2", "#0f9d9d"]; // of runs and trace
 const linear = (colour) => new THREE.Color(colour).convertSRGBToLinear();
 
 const SEQUENTIAL = ["#3b3fae", "#2f7fd0", "#26b3b0", "#7fce5c", "#f3d03e", "#f08a2c", "#d5303e"];
-const DIVERGING = ["#1f5fd0", "#5f9cf0", "#b9d2f5", "#e6e6e6", "#f6c3a8", "#ea7a55", "#c8263b"];
+const DIVERGING = ["#1f5fd0", "#5f9cf0", "#a9c4ea", "#c9c9c9", "#f0b59a", "#ea7a55", "#c8263b"];
 
 class ColourScale {
   constructor() {
