@@ -26,9 +26,10 @@ from acausal.cli.common import (
     user_errors,
 )
 from acausal.cli.option_values import read_inputs, read_size
-from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
+from acausal.cli.output import Files, check_outputs, modes_table, summary, write_json
+from acausal.cli.progress import Progress, progress_bar, working
 from acausal.cli.scenes import file_of, find_scene, scenes
-from acausal.cli.streams import escape_unencodable, flushed, tell
+from acausal.cli.streams import escape_unencodable, fitted, flushed, tell
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
@@ -82,7 +83,8 @@ def list_scenes() -> None:
         known = scenes()
         width = max(map(len, known), default=0)
         for name, cls in known.items():
-            typer.echo(f"{name:{width}}  {(inspect.getdoc(cls) or '').partition(chr(10))[0]}".rstrip())
+            line = f"{name:{width}}  {(inspect.getdoc(cls) or '').partition(chr(10))[0]}".rstrip()
+            typer.echo(fitted(line, sys.stdout, width + 2))
 
 
 @app.command()
@@ -197,7 +199,8 @@ def simulate(
             task, _ = checked_task(model, given, how, **limits)
             data, ends = read_inputs(inputs or ()), (task.start_time, task.stop_time)
             given = with_inputs(model, given, data, extrapolation, ends=ends)
-            compiled = ac.compile(model, parameters=given)
+            with working("compiling", not quiet):
+                compiled = ac.compile(model, parameters=given)
         # Refuse wrong names before the run.
         chosen = match(compiled.tree, variables or ())
         with user_errors(cls):
@@ -210,7 +213,8 @@ def simulate(
         with user_errors(cls):
             subject = model if again else compiled
             result = _rescue(lambda show: ac.simulate(subject, **options, progress=show), files, variables, quiet)
-        files.write(result, _chosen(result, variables))
+        with working("writing files", not quiet):
+            files.write(result, _chosen(result, variables))
         if not quiet:
             typer.echo(summary(result))
 
@@ -243,7 +247,10 @@ def linearize(
         check_outputs((file_of(scene), effects), json=json)
         check_choice("initial", initial)
         compiled, data = compile_scene(scene, find_scene(scene), settings, effects), read_inputs(inputs or ())
-        linear = ac.linearize(compiled, inputs=data, initial=initial)
+        with working("linearizing"):
+            linear = ac.linearize(compiled, inputs=data, initial=initial)
+        counts = f"{len(linear.states)} states, {len(linear.inputs)} inputs, {len(linear.outputs)} outputs"
+        typer.echo(f"{type(compiled.tree).__name__}: {counts}; {len(linear.frequencies_hz)} frequencies")
         typer.echo(modes_table(linear.eigenvalues))
         if json:
             document = {key: getattr(linear, key) for key in MODES} | {

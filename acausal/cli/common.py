@@ -16,6 +16,7 @@ import typer
 
 from acausal.cli.faults import brief, exit_error, place_in
 from acausal.cli.option_values import read_settings
+from acausal.cli.progress import working
 from acausal.cli.scenes import instance
 from acausal.cli.streams import WRONG, report_unwritten, reserved_output, tell
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
@@ -178,7 +179,7 @@ def compile_scene(scene: str, cls: type[Model], settings: list[str] | None, effe
     import acausal as ac
 
     model, values = make_scene(scene, cls, settings, effects)
-    with user_errors(cls):
+    with user_errors(cls), working("compiling"):
         return ac.compile(model, parameters=values)
 
 

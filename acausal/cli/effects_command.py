@@ -9,7 +9,8 @@ import typer
 from acausal.cli.app import app
 from acausal.cli.common import Inputs, Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
 from acausal.cli.option_values import read_inputs, read_settings
-from acausal.cli.output import check_outputs, runs_bar, write_json
+from acausal.cli.output import check_outputs, write_json
+from acausal.cli.progress import runs_bar
 from acausal.cli.scenes import file_of, find_scene, instance
 from acausal.policy import POLICY
 

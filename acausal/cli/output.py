@@ -1,11 +1,10 @@
-"""Output of the commands: files, JSON documents, summaries and the progress of long runs."""
+"""Output of the commands: files, JSON documents and summaries."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import combinations, product
 from typing import IO, Any
@@ -18,15 +17,18 @@ from acausal.result.files import whole
 from acausal.result.lookup import Tree
 from acausal.result.plots import Series
 from acausal.result.statistics import Statistics
-from acausal.result.tables import Table
+from acausal.result.tables import Table, wrapped
 from acausal.simulation.accuracy_control import chosen_text
 from acausal.units import parse
 
 FINAL_VALUES = 20
+LINES = 12  # of a summary
+MODES = 20  # rows of a table of modes
+LEAST = 2  # final values, however long the rest is
+FEW = 2  # small outputs that are named
 # Fraction of the nominal value of the states of a unit; smaller outputs have a relative error of ten tolerances or more.
 SMALL = 0.1
 ROUNDING = 1e-12  # real part of an eigenvalue relative to its magnitude, below which it is round-off of zero
-Progress = Callable[[float, int], None] | None
 
 
 def check_outputs(reads: Iterable[str | None], **writes: str | None) -> None:
@@ -172,34 +174,33 @@ def summary(result: Result) -> str:
     ]
     series = result.series()
     if not series:
-        return "\n".join([*lines, "  the model has no outputs; --variables PATTERN adds columns"])
-    width = max(len(s.name) for s in series[:FINAL_VALUES])
-    lines.append(f"  at {time[-1]:g} s:")
-    for s in series[:FINAL_VALUES]:
-        unit = "" if s.unit in ("", "1") else f" {s.unit}"
-        lines.append(f"    {s.name:{width}} = {s.values[-1]:.6g}{unit}")
-    if len(series) > FINAL_VALUES:
-        lines.append(f"    ... ({len(series)} in all)")
-    return "\n".join([*lines, *_small(stats, series)])
+        return wrapped([*lines, "  the model has no outputs; --variables PATTERN adds columns"], indent=4)
+    head, last = wrapped(lines, indent=4).splitlines(), wrapped(_small(stats, series), indent=4).splitlines()
+    most = max(LINES - len(head) - len(last) - 1, LEAST)
+    shown = series if len(series) <= most else series[: most - 1]
+    width = max(len(s.name) for s in shown)
+    finals = [f"    {s.name:{width}} = {s.values[-1]:.6g} {s.unit if s.unit != '1' else ''}".rstrip() for s in shown]
+    more = [f"    ... ({len(series)} in all; --csv FILE writes them over time)"] if len(series) > most else []
+    return "\n".join([*head, f"  at {time[-1]:g} s:", *finals, *more, *last])
 
 
 def _small(stats: Statistics, series: list[Series]) -> list[str]:
-    """Return a line for each output so small that the absolute part of the tolerance dominates.
+    """Return a line on the outputs so small that the absolute part of the tolerance dominates.
 
     An output below the round-off of another output of the same unit counts as 0, such as the velocity in a direction
     without motion.
     """
-    lines = []
+    small = []
     for s in series[:FINAL_VALUES]:
         size = stats.sizes.get(str(parse(s.unit or "1")), 0.0)
         usual = float(np.median(np.abs(s.values)))
         largest = max(float(np.max(np.abs(other.values))) for other in series if other.unit == s.unit)
         if np.finfo(float).eps * largest < usual < SMALL * size:
-            lines.append(
-                f"  {s.name} is about {usual:.2g}, but the tolerance is absolute below {size:g} {s.unit}: for more digits take a "
-                "smaller tolerance, or give its states a nominal value"
-            )
-    return lines
+            small.append(f"{s.name} is about {usual:.2g} {s.unit}")
+    if not small:
+        return []
+    more = f" and {len(small) - FEW} more" if len(small) > FEW else ""
+    return [f"  more digits need a smaller tolerance or nominal values: {', '.join(small[:FEW])}{more}"]
 
 
 def _method(stats: Statistics) -> str:
@@ -221,14 +222,14 @@ def _events(stats: Statistics) -> list[str]:
         lines.append(f"  {stats.events} events, the first at {stats.event_times[0]:g} s")
     if stats.energy_supplied or stats.energy_stored_change:
         lines.append(
-            f"  energy: supplied {stats.energy_supplied:.6g} J, stored energy changed by {stats.energy_stored_change:.6g} J, "
-            f"dissipated {stats.energy_dissipated:.3g} J, lost by the method {stats.energy_method:.3g} J"
+            f"  energy in J: supplied {stats.energy_supplied:.5g}, stored change {stats.energy_stored_change:.5g}, "
+            f"dissipated {stats.energy_dissipated:.3g}, numerical loss {stats.energy_method:.3g}"
         )
     return lines
 
 
 def modes_table(eigenvalues: np.ndarray) -> str:
-    """Return a table of modes, a row for each real eigenvalue and each conjugate pair.
+    """Return a table of the first modes, a row for each real eigenvalue and each conjugate pair; equal ones are counted.
 
     Parameters
     ----------
@@ -236,62 +237,17 @@ def modes_table(eigenvalues: np.ndarray) -> str:
         Eigenvalues in 1/s.
     """
     size = np.abs(eigenvalues).max(initial=0.0)
-    rows = []
+    rows: dict[tuple[str, str, str], int] = {}
     for value in eigenvalues:
+        row = None
         if abs(value.imag) <= 1e-9 * size:
-            rows.append([f"{value.real:.6g}", "", ""])
+            row = f"{value.real:.6g}", "", ""
         elif value.imag > 0:
             real = value.real if abs(value.real) > ROUNDING * abs(value) else 0.0
             frequency, ratio = value.imag / (2 * np.pi), 0 - real / abs(value)
-            rows.append([f"{real:.6g} ± {value.imag:.6g}i", f"{frequency:.6g}", f"{ratio:.4g}"])
-    return Table(["eigenvalue [1/s]", "frequency [Hz]", "damping ratio"], rows).text()
-
-
-@contextmanager
-def progress_bar(wanted: bool) -> Iterator[Progress]:
-    """Yield a function that shows the progress of a long run on the terminal; None without a terminal."""
-    with _bar(wanted) as show:
-        yield show and (lambda fraction, steps: show(fraction, 1.0, f"{steps} steps"))
-
-
-@contextmanager
-def runs_bar(wanted: bool) -> Iterator[Callable[[int, int, str], None] | None]:
-    """Yield a function that shows how many runs of a study are done; None without a terminal."""
-    with _bar(wanted) as show:
-        yield show and (lambda done, total, what: show(done, total, f"{done} of {total} runs: {what}"))
-
-
-@contextmanager
-def steps_bar(wanted: bool, total: int) -> Iterator[Callable[[str], None]]:
-    """Yield a function that shows on the terminal which of a few stages begins; it does nothing without a terminal."""
-    with _bar(wanted) as show:
-        done = iter(range(total))
-        yield lambda what: show(next(done), total, what) if show else None
-
-
-@contextmanager
-def _bar(wanted: bool) -> Iterator[Callable[[float, float, str], None] | None]:
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    console = Console(stderr=True)
-    if not wanted or not console.is_terminal:
-        yield None
-        return
-    columns = (
-        BarColumn(),
-        TextColumn("{task.percentage:.0f} %"),
-        TimeRemainingColumn(),
-        TextColumn("{task.description}"),
-    )
-    bar = Progress(*columns, console=console, transient=True)
-    task = bar.add_task("", total=1.0)
-
-    def show(done: float, total: float, what: str) -> None:
-        bar.start()  # a short run never calls this function and so shows no bar
-        bar.update(task, completed=done, total=total, description=what)
-
-    try:
-        yield show
-    finally:
-        bar.stop()
+            row = f"{real:.6g} ± {value.imag:.6g}i", f"{frequency:.6g}", f"{ratio:.4g}"
+        if row:
+            rows[row] = rows.get(row, 0) + 1
+    shown = [[f"{n} times {row[0]}" if n > 1 else row[0], *row[1:]] for row, n in rows.items()]
+    text = Table(["eigenvalue [1/s]", "frequency [Hz]", "damping ratio"], shown[:MODES]).text()
+    return text + (f"\n... ({len(shown)} in all; --json FILE writes all)" if len(shown) > MODES else "")

@@ -164,5 +164,6 @@ def _load(path: Path) -> ModuleType:
     except SystemExit as error:
         raise exit_error(error, path) from None
     except BaseException as error:
-        raise DeclarationError(f"{place_in(error, path) or path}: {brief(error)}") from error
+        where, text = place_in(error, path) or str(path), brief(error)
+        raise DeclarationError(text if text.startswith(where) else f"{where}: {text}") from error
     return module

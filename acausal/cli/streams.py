@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
@@ -11,6 +12,7 @@ from typing import IO, Any
 import typer
 
 from acausal.errors import ExportError
+from acausal.result.tables import WIDTH, wrapped
 
 WRONG, UNREAD = 2, 141
 
@@ -18,7 +20,25 @@ WRONG, UNREAD = 2, 141
 def tell(text: str) -> None:
     """Print a line on standard error; do nothing if it is closed."""
     with suppress(OSError, ValueError):
-        typer.echo(text, err=True)
+        typer.echo(fitted(text, sys.stderr), err=True)
+
+
+def fitted(text: str, stream: Any, indent: int = 2) -> str:
+    """Return text with lines broken and indented to fit a terminal; unchanged for files and pipes.
+
+    Parameters
+    ----------
+    text : str
+        The lines.
+    stream : text stream or None
+        Where the text will be written.
+    indent : int
+        Indent of the rest of a broken line.
+    """
+    if stream is None or not stream.isatty():
+        return text
+    width = min(shutil.get_terminal_size().columns, WIDTH)
+    return wrapped(text.splitlines(), width, indent)
 
 
 def escape_unencodable() -> None:

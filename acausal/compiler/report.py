@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,6 +19,7 @@ from acausal.reduce.tables import bent_tables
 from acausal.symbols import dense, scalars, vec
 
 SHOWN = 12
+WIDTH = 100  # columns
 FEW = 6
 ENTRY = re.compile(r"(.*)\[(\d+)\](\)*)")
 
@@ -89,7 +91,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
 def summary(r: Mapping[str, Any]) -> str:
     """Return a report as text."""
     lines = [
-        f"{r['model']}",
+        f"{r['model']}: {len(r['states'])} states, {len(r['algebraic'])} algebraic unknowns",
         f"  flattened     {r['equations_flat']:6d} equations, {r['unknowns_flat']} unknowns",
         f"  simplified    {r['equations_simplified']:6d} equations, {r['unknowns_simplified']} unknowns: removed "
         f"{r['constants']} constants and {r['aliases']} aliases, {r['redundant']} redundant equations",
@@ -127,7 +129,8 @@ def summary(r: Mapping[str, Any]) -> str:
     lines.append(f"  integrator    {f'CasADi, which takes longer than the core: {missing}' if missing else 'the core'}")
     seconds = r["seconds"]
     lines.append("  seconds       " + ", ".join(f"{k} {v:.3f}" for k, v in seconds.items()))
-    return "\n".join(lines)
+    how = {"subsequent_indent": " " * 16, "break_long_words": False, "break_on_hyphens": False}
+    return "\n".join(textwrap.fill(line, WIDTH, **how) for line in lines)
 
 
 def compressed(names: Sequence[str]) -> list[str]:

@@ -16,6 +16,7 @@ from acausal.result.files import read_text, shown_name, whole
 
 # Width in characters at which a narrow table breaks names of columns, and cells.
 NAME, CELL = 10, 42
+WIDTH = 100  # of lines
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,20 @@ class Table:
             bold = any(cell and not name for name, cell in zip(self.head, row, strict=True))
             lines.append([f"**{row[k]}**" if bold and row[k] else row[k] for k in shown])
         return "\n".join(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |" for line in lines)
+
+
+def wrapped(lines: Iterable[str], width: int = WIDTH, indent: int = 0) -> str:
+    """Return lines as text, long ones broken between words and continued at an indent.
+
+    Parameters
+    ----------
+    lines : iterable of str
+        The lines.
+    width, indent : int
+        In characters.
+    """
+    how = {"subsequent_indent": " " * indent, "break_long_words": False, "break_on_hyphens": False}
+    return "\n".join(textwrap.fill(line, width, **how) for line in lines)
 
 
 def write_csv(path: str | Path, columns: Mapping[str, Iterable[object]]) -> None:

@@ -11,7 +11,8 @@ import typer
 from acausal import DeclarationError
 from acausal.cli.common import Quiet, running
 from acausal.cli.option_values import pair, value_of
-from acausal.cli.output import check_outputs, steps_bar
+from acausal.cli.output import check_outputs
+from acausal.cli.progress import steps_bar
 from acausal.cli.streams import escape_unencodable, flushed
 from acausal.result import shown_name
 from components.fe import ReducedBody, read_mesh, read_sid, reduce_body

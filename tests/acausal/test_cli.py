@@ -133,7 +133,7 @@ def test_json_alone_on_standard_output(run):
 def test_json_into_a_file(run, tmp_path):
     done = run("check", "mine.py:Oscillator", "--json", "a.json")
     assert json.loads((tmp_path / "a.json").read_text())["states"] == ["v", "s"]
-    assert done.stdout.startswith("Oscillator\n")
+    assert done.stdout.startswith("Oscillator: 2 states")
 
 
 def test_linearize(run):

@@ -66,7 +66,7 @@ def test_check_and_linearize(scene):
 
 def test_check_tells_what_became_of_a_planar_loop():
     done = run("check", "four-bar", "--json", "-")
-    text, document = done.stderr, json.loads(done.stdout)
+    text, document = " ".join(done.stderr.split()), json.loads(done.stdout)
     (loop,) = document["loops"]
     assert (loop["kind"], loop["constraints"], loop["redundant"], loop["redundant_by_rank"]) == ("planar loop", 6, 3, 0)
     joints = ["j1", "j2", "j3", "j4"]

@@ -87,7 +87,13 @@ INSIDE = {
     "components/fe/formats/text.py": FILES,
     "components/fe/body/recovery.py": FILES,
     "components/fe/__main__.py": FILES
-    | {"acausal.cli.common", "acausal.cli.output", "acausal.cli.streams", "acausal.cli.option_values"},
+    | {
+        "acausal.cli.common",
+        "acausal.cli.output",
+        "acausal.cli.progress",
+        "acausal.cli.streams",
+        "acausal.cli.option_values",
+    },
 }
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 

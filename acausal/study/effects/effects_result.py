@@ -16,7 +16,7 @@ from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, as_fa
 from acausal.study.effects.effect_tables import brief_changes, changes, columns, number, sets, together
 from acausal.study.effects.listing import Effect
 
-WIDTH = 120
+WIDTH = 100
 ELSEWHERE = "(the changes of every output: --csv FILE, --markdown FILE)"
 
 
@@ -84,7 +84,7 @@ class Effects:
         return {path: value for path, value in self.choices[name].items() if not same(value, standing[path])}
 
     def table(self) -> str:
-        """Return everything as text for a terminal, at most 120 columns wide."""
+        """Return everything as text for a terminal, at most 100 columns wide."""
         labelled = self._labelled()
         shown = changes(labelled, self.outputs).text(narrow=True)
         if max(map(len, shown.splitlines())) > WIDTH:

@@ -19,7 +19,7 @@ from acausal.policy import POLICY
 from acausal.result import check_writable
 from acausal.result.files import whole
 from acausal.result.plots import save
-from acausal.result.tables import read_csv, write_csv
+from acausal.result.tables import read_csv, wrapped, write_csv
 from acausal.simulation.inputs import with_inputs
 from acausal.simulation.settings_checks import check_choice
 from acausal.study.measuring.case import Case, Job
@@ -81,8 +81,9 @@ class Study:
 
     def table(self) -> str:
         """Return reference, cases, the cost of each digit and model errors as text for a terminal."""
-        table = cells(self.rows, self.reference, self.switches).text()
-        return "\n\n".join([self.title, str(self.reference), table, "\n".join([*self.price(), *self.gaps()])])
+        table = cells(self.rows, self.reference, self.switches).text(narrow=True)
+        reference, findings = wrapped(str(self.reference).splitlines()), wrapped([*self.price(), *self.gaps()])
+        return "\n\n".join([self.title, reference, table, findings])
 
     def price(self) -> list[str]:
         """Return the cost of each digit: a line with the fastest case within each power of ten of the error."""

@@ -140,11 +140,10 @@ def test_copies_and_full_models_keep_what_they_are():
 
 def test_the_report_names_what_stays_zero():
     compiled = ac.compile(FEPendulum())
-    line = next(line for line in compiled.summary().splitlines() if "stays zero" in line)
-    assert line == (
-        "  stays zero    body.q[0], body.q[2:4], body.q[6:8], body.qd[0], body.qd[2:4], body.qd[6:8], by 23 unknowns: "
+    assert (
+        "stays zero body.q[0], body.q[2:4], body.q[6:8], body.qd[0], body.qd[2:4], body.qd[6:8], by 23 unknowns: "
         "a disturbance across needs a start value or a force"
-    )
+    ) in " ".join(compiled.summary().split())
     assert "stays zero" in ac.compile(SpinUp()).summary()
     assert "stays zero" not in ac.compile(NFourBar()).summary(), "forces alone are no motion"
 
