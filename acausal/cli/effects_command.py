@@ -10,7 +10,7 @@ from acausal.cli.app import app
 from acausal.cli.common import Inputs, Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
 from acausal.cli.option_values import read_inputs, read_settings
 from acausal.cli.output import check_outputs, write_json
-from acausal.cli.progress import runs_bar
+from acausal.cli.progress import kept_runs, runs_bar
 from acausal.cli.scenes import file_of, find_scene, instance
 from acausal.policy import POLICY
 
@@ -46,7 +46,9 @@ def effects(
     workers: Annotated[
         int | None, typer.Option(help="Parallel processes; one per core if not given.", metavar="N")
     ] = None,
-    csv: Annotated[str | None, typer.Option(help="Write a row for each variant.", metavar="FILE")] = None,
+    csv: Annotated[
+        str | None, typer.Option(help="Write a row for each variant; an interrupted command continues.", metavar="FILE")
+    ] = None,
     markdown: Annotated[str | None, typer.Option(help="Write the tables in Markdown.", metavar="FILE")] = None,
     json: Json = None,
     quiet: Quiet = False,
@@ -58,7 +60,8 @@ def effects(
 
         check_outputs((file_of(scene),), apply=apply, csv=csv, markdown=markdown, json=json)
         cls, values = find_scene(scene), read_settings(settings or ())
-        with user_errors(cls), runs_bar(not quiet) as show:
+        journal = f"{csv}.journal" if csv else None
+        with kept_runs(journal, "runs"), user_errors(cls), runs_bar(not quiet) as show:
             model = instance(cls)
             found = study(
                 model,
@@ -71,6 +74,7 @@ def effects(
                 limit=limit,
                 pairs=pairs,
                 workers=workers,
+                journal=journal,
                 progress=show,
             )
         if csv:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Timer
 
+from acausal.cli.streams import tell
+
 Progress = Callable[[float, int], None] | None
 PATIENCE = 2.0  # seconds of work without a sign of it
 
@@ -51,6 +53,27 @@ def runs_bar(wanted: bool) -> Iterator[Callable[[int, int, str], None] | None]:
     """Yield a function that shows how many runs of a study are done; None without a terminal."""
     with _bar(wanted) as show:
         yield show and (lambda done, total, what: show(done, total, f"{done} of {total} runs: {what}"))
+
+
+@contextmanager
+def kept_runs(journal: str | None, what: str) -> Iterator[None]:
+    """Tell on an interrupt where finished runs are kept.
+
+    Parameters
+    ----------
+    journal : str or None
+        The file that keeps them.
+    what : str
+        What is run: "cases".
+    """
+    try:
+        yield
+    except KeyboardInterrupt:
+        kept = f"finished {what} are kept in {journal}: the same command continues from there"
+        tell(
+            kept if journal else f"finished {what} are lost; with --csv FILE the command can continue where it stopped"
+        )
+        raise
 
 
 @contextmanager

@@ -11,9 +11,8 @@ from acausal.cli.app import app
 from acausal.cli.common import Initial, Inputs, Json, Quiet, Scene, Set, StopTime, running, stop_time_of, user_errors
 from acausal.cli.option_values import read_inputs, read_settings, read_switches
 from acausal.cli.output import check_outputs, write_json
-from acausal.cli.progress import runs_bar
+from acausal.cli.progress import kept_runs, runs_bar
 from acausal.cli.scenes import file_of, find_scene, instance
-from acausal.cli.streams import tell
 from acausal.errors import DeclarationError
 from acausal.language.component import Model
 from acausal.policy import POLICY
@@ -106,25 +105,20 @@ def study(
         }
         numbers = {"accuracy": accuracy, "intervals": intervals, "initial": initial, "repeats": repeats, "limit": limit}
         journal = f"{csv}.journal" if csv else None
-        try:
-            with user_errors(cls), runs_bar(not quiet) as show:
-                model = instance(cls)
-                found = run(
-                    model,
-                    stop_time=stop_time_of(model, values, stop_time),
-                    formulations=_chosen(cls, values, formulations),
-                    reference=reference,
-                    workers=workers,
-                    executor=cluster,
-                    journal=journal,
-                    progress=show,
-                    **options,
-                    **numbers,
-                )
-        except KeyboardInterrupt:
-            kept = f"finished cases are kept in {journal}: the same command continues from there"
-            tell(kept if journal else "finished cases are lost; with --csv FILE a study can continue where it stopped")
-            raise
+        with kept_runs(journal, "cases"), user_errors(cls), runs_bar(not quiet) as show:
+            model = instance(cls)
+            found = run(
+                model,
+                stop_time=stop_time_of(model, values, stop_time),
+                formulations=_chosen(cls, values, formulations),
+                reference=reference,
+                workers=workers,
+                executor=cluster,
+                journal=journal,
+                progress=show,
+                **options,
+                **numbers,
+            )
         if csv:
             found.to_csv(csv)
         if markdown:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from itertools import combinations
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from acausal.compiler import checked_model, checked_values, compile
 from acausal.errors import DeclarationError, SimulationError
+from acausal.flatten.instantiate import Instantiation
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.data import same
@@ -20,9 +22,10 @@ from acausal.simulation.settings_checks import check_choice
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.effect_rows import ALL, EffectRow, Interaction, interaction, row
 from acausal.study.effects.effects_result import Effects
-from acausal.study.effects.listing import Effect, fullest
+from acausal.study.effects.listing import Effect, fitting, fullest
 from acausal.study.effects.variants import Choices, Variants
 from acausal.study.measuring.case import Case, Job, Measurement
+from acausal.study.measuring.journal import Journal, identity
 from acausal.study.measuring.model_pickling import pack
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress
@@ -53,6 +56,7 @@ def effects(
     pairs: int = 15,
     workers: int | None = None,
     executor: Executor | str | None = None,
+    journal: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Effects:
     """Measure what each effect of a scene changes and costs, and find the cheapest set of effects within an accuracy.
@@ -89,6 +93,8 @@ def effects(
         Parallel processes; one per core if not given.
     executor : Executor or str, optional
         Where to run instead: an executor as in concurrent.futures, or the address of a Dask scheduler.
+    journal : str or Path, optional
+        File that records finished runs; an interrupted call continues from it, a complete one removes it.
     progress : callable, optional
         Called with the number of runs done, the number of runs known so far, and the current stage.
 
@@ -123,9 +129,14 @@ def effects(
         )
     case = Case(tolerance=tolerance, method=method)
     job = Job(pack(model), case, stop, intervals, names, repeats, limit, initial, type(model).__module__)
+    trees = [Instantiation(model, fitting(model, {**given, **choices})).root for choices in ({}, full)]
+    common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
+    kept = Journal(journal, identity(model, trees, **common))
     with executor_of(executor, workers) as where:
-        variants = Variants(model, given, job, where, progress)
-        return _Study(variants, found, full, accuracy).result(pairs)
+        variants = Variants(model, given, job, where, kept, progress)
+        result = _Study(variants, found, full, accuracy).result(pairs)
+    kept.remove()
+    return result
 
 
 class _Study:

@@ -54,15 +54,23 @@ class Variants:
         Template of the jobs; its case gives everything except the settings.
     executor : Executor
         Executor of the runs.
+    journal : Journal
+        Holds the finished runs.
     progress : callable, optional
         Called with the number of runs done, the number of runs known so far, and the current stage.
     """
 
     def __init__(
-        self, model: Component, settings: Choices, job: Job, executor: Executor, progress: Progress | None = None
+        self,
+        model: Component,
+        settings: Choices,
+        job: Job,
+        executor: Executor,
+        journal: Journal,
+        progress: Progress | None = None,
     ) -> None:
         self.model, self.settings, self.job, self.executor = model, settings, job, executor
-        self.session = Session(job, executor, Journal(None, {}), progress)
+        self.session = Session(job, executor, journal, progress)
 
     def fitting(self, choices: Choices) -> dict[str, Any]:
         """Return the compatible settings of a variant."""
