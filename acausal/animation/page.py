@@ -17,9 +17,10 @@ FOLDER = Path(__file__).with_name("page")
 # Files of the viewer, concatenated in this order: definitions that are used while the script loads come first.
 SCRIPTS = (
     *("vectors", "data", "turned", "solids", "tube", "curve", "spans", "mesh", "colours", "stage", "run", "views"),
-    *("traces", "names", "hover", "clock", "record", "plots", "viewer", "choice", "address", "controls"),
-    *("series", "tree", "explorer", "main"),
+    *("traces", "names", "hover", "clock", "record", "plots", "viewer", "choice", "address", "controls", "main"),
 )
+# Files of a page that explores, before the viewer starts in the last one.
+EXPLORER = ("series", "tree", "explorer")
 
 
 def html(document: dict[str, Any]) -> str:
@@ -44,7 +45,7 @@ def html(document: dict[str, Any]) -> str:
         If the package that contains three.js is not installed.
     """
     values = content(document)
-    return "".join(values[piece] if k % 2 else piece for k, piece in enumerate(player()))
+    return "".join(values[piece] if k % 2 else piece for k, piece in enumerate(player("explorer" in document)))
 
 
 def content(document: dict[str, Any]) -> dict[str, str]:
@@ -54,9 +55,10 @@ def content(document: dict[str, Any]) -> dict[str, str]:
     return {"title": escape(str(document.get("title") or "animation")), "document": data}
 
 
-def player() -> list[str]:
-    """Return the page of any document: pieces of HTML, every second one a name in `content`."""
-    three, viewer, style = three_js(), script(), part("viewer.css") + part("explorer.css")
+def player(explores: bool = False) -> list[str]:
+    """Return the page of any document, or of one that explores: pieces of HTML, every second one a name in `content`."""
+    three, viewer = three_js(), script(EXPLORER if explores else ())
+    style = part("viewer.css") + (part("explorer.css") if explores else "")
     fixed = {
         "policy": "; ".join(
             (
@@ -81,9 +83,10 @@ def player() -> list[str]:
     return pieces
 
 
-def script() -> str:
-    """Return the viewer as one script."""
-    return "(() => {\n" + '"use strict";\n' + "".join(part(f"{name}.js") for name in SCRIPTS) + "})();\n"
+def script(more: tuple[str, ...] = ()) -> str:
+    """Return the viewer as one script, with more files before the last one."""
+    names = (*SCRIPTS[:-1], *more, SCRIPTS[-1])
+    return "(() => {\n" + '"use strict";\n' + "".join(part(f"{name}.js") for name in names) + "})();\n"
 
 
 @cache

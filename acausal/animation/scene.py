@@ -115,7 +115,7 @@ class Scene:
         return replace(self, size=size, shapes=with_default_sizes(self.shapes, size))
 
 
-def visible(seen: Sequence[PartShape]) -> bool:
+def visible(seen: Iterable[PartShape]) -> bool:
     """Return whether a shape is more than the ground, a trail or an arrow."""
     return any(not isinstance(one.shape, g.Ground | g.Trail | g.Arrow) for one in seen)
 

@@ -76,9 +76,8 @@ def quantised(table: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """
     low, high = (pick(table, axis=1, initial=bound) for pick, bound in ((np.nanmin, np.inf), (np.nanmax, -np.inf)))
     low, high = np.where(np.isfinite(low), low, 0.0), np.where(np.isfinite(high), high, 0.0)
-    step = high / STEPS - low / STEPS  # the range itself could overflow
-    with np.errstate(invalid="ignore", divide="ignore"):
-        steps = np.round((table - low[:, None]) / np.where(step > 0, step, 1.0)[:, None])
+    step = (high - low) / STEPS
+    steps = np.round((table - low[:, None]) / np.where(step > 0, step, 1.0)[:, None])
     codes = np.where(np.isnan(table), MISSING, np.clip(steps, 0, STEPS)).astype("<u2")
     return low, step, codes
 

@@ -212,11 +212,9 @@ def _without_picture(run: Run) -> Scene:
 def _values(result: Any, quantities: Sequence[Quantity], places: np.ndarray) -> Iterator[tuple[Quantity, np.ndarray]]:
     """Yield quantities with their entries, row by row as in `entries`, shape (times, entries), at some times."""
     snapshot = result.tree if isinstance(result.tree, Snapshot) else result._more
-    evaluate, block = at_places(result, places), list[Quantity]()
-    for k, quantity in enumerate(quantities):
-        block.append(quantity)
-        if sum(q.size for q in block) < AT_ONCE and k < len(quantities) - 1:
-            continue
+    evaluate = at_places(result, places)
+    ends = np.cumsum([q.size for q in quantities]) // AT_ONCE
+    for block in ([quantities[k] for k in np.flatnonzero(ends == part).tolist()] for part in np.unique(ends)):
         columns = [q.column for q in block if not isinstance(q.column, np.ndarray)]
         values, first = np.asarray(evaluate(stacked(columns))) if columns else np.empty((len(places), 0)), 0
         for q in block:
@@ -225,4 +223,3 @@ def _values(result: Any, quantities: Sequence[Quantity], places: np.ndarray) -> 
             else:
                 found = values[:, first : (first := first + q.size)]
             yield q, found[:, np.arange(q.size).reshape(q.shape, order="F").ravel()]
-        block = []

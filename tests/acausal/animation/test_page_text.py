@@ -28,8 +28,8 @@ def test_missing_three_js_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_every_file_of_the_page_is_used_and_short() -> None:
     names = {path.name for path in page.FOLDER.iterdir()}
-    viewer = {f"{name}.js" for name in page.SCRIPTS}
-    assert names == viewer | {"index.html", "viewer.css", "frame.js", "DOCUMENT.md"}
+    viewer = {f"{name}.js" for name in (*page.SCRIPTS, *page.EXPLORER)}
+    assert names == viewer | {"index.html", "viewer.css", "explorer.css", "frame.js", "DOCUMENT.md"}
     assert not [name for name in names if page.part(name).count("\n") > 300]
 
 
