@@ -9,13 +9,13 @@ class Selection extends Plots {
     this.draw();
   }
 
+  /** One group for each unit; groups keep their order until their last curve is removed. */
   groups() {
-    const groups = new Map();
     const [run] = this.runs;
-    for (const { name, unit: of, column } of run.run.plots) {
-      if (!groups.has(of)) groups.set(of, { of, outputs: new Map() });
-      groups.get(of).outputs.set(name, [{ run, column }]);
-    }
+    const units = [...(this.units ?? []), ...run.run.plots.map((one) => one.unit)];
+    this.units = [...new Set(units)].filter((of) => run.run.plots.some((one) => one.unit === of));
+    const groups = new Map(this.units.map((of) => [of, { of, outputs: new Map() }]));
+    for (const { name, unit, column } of run.run.plots) groups.get(unit).outputs.set(name, [{ run, column }]);
     return [...groups.values()];
   }
 
@@ -115,7 +115,7 @@ class Explorer {
   addEvents(events) {
     if (!events.length) return;
     const group = new TreeNode(this.root, "events", { path: "events", count: String(events.length) });
-    group.children = events.map((one) => new TreeNode(group, `${formatNumber(one.t, 6)} s`, { path: `events ${one.t}`, about: one.what, value: one.what, time: one.t }));
+    group.children = events.map((one) => new TreeNode(group, `${formatNumber(one.t, 6)} s`, { path: `events ${one.t}`, value: one.what, time: one.t }));
     this.root.children.push(group);
   }
 

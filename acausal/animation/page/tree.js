@@ -141,7 +141,8 @@ class Tree {
 
   tip(node) {
     const unit = node.unit && node.unit !== "1" ? ` [${node.unit}]` : "";
-    return [(node.time === undefined ? node.path : node.name) + unit, node.about].filter(Boolean).join("\n");
+    const lines = node.time === undefined ? [node.path + unit, node.about] : [node.name, node.value];
+    return lines.filter(Boolean).join("\n");
   }
 
   /** Show the values at the current time. */

@@ -1,4 +1,4 @@
-"""acausal simulate --animate."""
+"""acausal simulate --animate and --explore."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from acausal.cli import app
+from tests.acausal.animation.explorer import Explored
 
 MODELS = '''
 import acausal as ac
@@ -38,6 +39,11 @@ class Falls(Model):
 class Nothing(Falls):
     def shapes(self):
         yield geometry.Ground()
+
+
+class Wrong(Falls):
+    def shapes(self):
+        yield 1 / 0
 '''
 
 
@@ -72,6 +78,10 @@ def test_chosen_variables_are_plotted(run: Callable[..., Any], tmp_path: Path) -
         (("mine.py:Falls", "--animate", "mine.py"), "ends in .html"),
         (("mine.py:Falls", "--animate", "a.png", "--plot", "a.png"), "--plot and --animate both write a.png"),
         (("mine.py:Nothing", "--animate", "a.html"), "Nothing cannot be animated"),
+        (("mine.py:Falls", "--explore", "run.gif"), "ends in .html"),
+        (("mine.py:Falls", "--explore", "no/run.html"), "there is no directory"),
+        (("mine.py:Falls", "--explore", "a.html", "--animate", "a.html"), "--animate and --explore both write a.html"),
+        (("mine.py:Wrong", "--explore", "a.html"), "shapes() fails"),
         (("mine.py:Falls", "--animate", "a.html", "--deformation", "0"), "deformation is a number from 1 to 1000"),
         (("mine.py:Falls", "--animate", "a.html", "--view", "left"), "view is front, top, right or iso, not 'left'"),
         (("mine.py:Falls", "--animate", "a.html", "--size", "800x600"), "a page is as large as its window"),
@@ -96,6 +106,26 @@ def test_refused_before_any_work(
     assert done.exit_code == 2
     assert said in done.stderr
     assert {p.name for p in tmp_path.iterdir() if p.is_file()} == {"mine.py"}
+
+
+@pytest.mark.parametrize(
+    ("more", "found"),
+    [((), {"x", "height"}), (("--variables", "h*"), {"height"}), (("--variables", "x"), {"x", "height"})],
+)
+def test_the_explorer_has_the_chosen_variables(
+    run: Callable[..., Any], tmp_path: Path, more: tuple[str, ...], found: set[str]
+) -> None:
+    for model in ("Falls", "Nothing"):
+        done = run(f"mine.py:{model}", "--explore", "e.html", *more, "--quiet")
+        assert (done.exit_code, done.output) == (0, "")
+        assert {"x", "height"} & set(Explored(tmp_path / "e.html").variables) == found
+
+
+def test_a_failed_run_is_explored_up_to_its_failure(run: Callable[..., Any], tmp_path: Path) -> None:
+    assert run("mine.py:Nothing", "--stop-time", 2, "--explore", "e.html", "--quiet").exit_code == 1
+    page = Explored(tmp_path / "e.html")
+    assert page.time[-1] < 2
+    assert page.model["note"].startswith("The run stopped at ")
 
 
 def test_a_failed_run_shows_what_was_computed(run: Callable[..., Any], tmp_path: Path) -> None:
