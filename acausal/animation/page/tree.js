@@ -114,7 +114,7 @@ class Tree {
     const more = nodes.length - shown.length;
     this.element.replaceChildren(
       ...this.rows.map((row) => row.element),
-      ...(more ? [make("p", { className: "hint", textContent: `${more} more: type a longer word.` })] : []),
+      ...(more ? [make("p", { className: "hint", textContent: `${more} more: use the filter.` })] : []),
     );
     this.update();
   }
