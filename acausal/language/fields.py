@@ -260,6 +260,6 @@ class Observed(Field):
         """Return the expression in a built component."""
         if owner is None or not owner._is_bound:
             return super().__get__(owner, cls)
-        with reading():
-            value = as_expr(self.compute(owner))
+        with reading() as requests:
+            value = requests.value((id(owner), self.name), lambda: as_expr(self.compute(owner)))
         return Expr(value.sx, value.unit, f"{owner._path}.{self.name}" if owner._path else self.name, value.shape)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
@@ -98,6 +98,10 @@ class Pending:
         self.varying = self.varying | own
         self._unplaced += whens
 
+    def value(self, key: Any, compute: Callable[[], Any]) -> Any:
+        """Return an observed value; its requests are recorded each time."""
+        return compute()
+
     def differentiate(self, x: ca.SX) -> ca.SX:
         """Return a placeholder for the derivative of an expression."""
         placeholder = ca.SX.sym("der", *x.shape)
@@ -147,17 +151,27 @@ class _Reading(Pending):
     def __init__(self) -> None:
         super().__init__()
         self.watches = False
+        self._values: dict[Any, Any] = {}
+
+    def value(self, key: Any, compute: Callable[[], Any]) -> Any:
+        """Return a value that is formed once."""
+        if key not in self._values:
+            self._values[key] = compute()
+        return self._values[key]
 
     def differentiate(self, x: ca.SX) -> ca.SX:
         raise _only_in_equations("der()")
 
 
 @contextmanager
-def reading() -> Iterator[None]:
-    """Form expressions of a built model for reading, without requests; within equations() requests are recorded."""
+def reading() -> Iterator[Pending]:
+    """Form expressions of a built model for reading, without requests; within equations() requests are recorded.
+
+    Within one outer `reading()` each observed value is formed once.
+    """
     token = PENDING.set(PENDING.get(None) or _Reading())
     try:
-        yield
+        yield PENDING.get()
     finally:
         PENDING.reset(token)
 

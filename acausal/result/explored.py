@@ -19,6 +19,7 @@ from acausal.animation.scene import Run, Scene, shapes_of, visible
 from acausal.animation.series import Series
 from acausal.errors import DeclarationError, ExportError
 from acausal.language.component import Component
+from acausal.language.pending import reading
 from acausal.language.value_checks import shown as code
 from acausal.result.animated import PAGES, at_places
 from acausal.result.event_marks import event_marks
@@ -57,7 +58,8 @@ def write(result: Any, path: str | Path, variables: Sequence[str] | None, frames
     if not result.time.size:
         raise DeclarationError(f"{result!r} is empty: there is no time at which something could be seen.")
     known = _Names(result)
-    quantities = [known.find(name) for name in (known.names if variables is None else match(known, variables))]
+    with reading():  # parts share what they observe
+        quantities = [known.find(name) for name in (known.names if variables is None else match(known, variables))]
     places = _with_events(select_frames(result.time, frames), result.time, result.stats.event_times, frames)
     page = _Page.of(result, quantities, places).fitting()
     with whole(path) as file:

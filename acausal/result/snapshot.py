@@ -14,6 +14,7 @@ from acausal.flatten.component_tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Expr
+from acausal.language.pending import reading
 from acausal.result.lookup import Key, Quantity, choose, find, invalid_key, names, not_readable, parse
 from acausal.result.unknown_path import unknown_path
 
@@ -169,7 +170,8 @@ def take_snapshot(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], time
     times : int
         Number of times.
     """
-    found, refused = _all(tree)
+    with reading():  # parts share what they observe
+        found, refused = _all(tree)
     varying: list[np.ndarray] = []
     constants: list[float] = []
     known: dict[bytes, int] = {}
