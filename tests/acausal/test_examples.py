@@ -23,7 +23,7 @@ import pytest
 from tests.acausal.test_tutorial import PROGRAMS
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted(p for p in (ROOT / "docs").rglob("*.md") if p.parent.name != "components")]
 MARKS = ("not run", "slow", "warns")
 MARK = re.compile(r"<!-- (.*): \S.* -->\n+\Z")
 FENCED = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
