@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -59,11 +59,24 @@ def write(result: Any, path: str | Path, variables: Sequence[str] | None, frames
         raise DeclarationError(f"{result!r} is empty: there is no time at which something could be seen.")
     known = _Names(result)
     with reading():  # parts share what they observe
-        quantities = [known.find(name) for name in (known.names if variables is None else match(known, variables))]
+        quantities, refused = (
+            _readable(known) if variables is None else ([*map(known.find, match(known, variables))], {})
+        )
     places = _with_events(select_frames(result.time, frames), result.time, result.stats.event_times, frames)
-    page = _Page.of(result, quantities, places).fitting()
+    page = _Page.of(result, quantities, refused, places).fitting()
     with whole(path) as file:
         file.write(page)
+
+
+def _readable(known: _Names) -> tuple[list[Quantity], dict[str, str]]:
+    """Return all quantities, and the messages for those that cannot be read."""
+    found, refused = [], {}
+    for name in known.names:
+        try:
+            found.append(known.find(name))
+        except DeclarationError as error:
+            refused[name] = str(error)
+    return found, refused
 
 
 def check_explorer(path: str | Path) -> None:
@@ -128,8 +141,8 @@ class _Page:
     shapes: list[PartShape]
 
     @classmethod
-    def of(cls, result: Any, quantities: Sequence[Quantity], places: np.ndarray) -> _Page:
-        """Evaluate quantities at some times."""
+    def of(cls, result: Any, quantities: Sequence[Quantity], refused: Mapping[str, str], places: np.ndarray) -> _Page:
+        """Evaluate quantities at some times; `refused` tells why others cannot be read."""
         series, known = Series(len(places)), {}
         changing: dict[int, tuple[str, str, np.ndarray]] = {}
         for quantity, values in _values(result, quantities, places):
@@ -140,7 +153,7 @@ class _Page:
                     changing.setdefault(number, (name, unit, column))
         stats = result.stats
         model = {
-            "root": part_tree(result.tree, known, _title(result)),
+            "root": part_tree(result.tree, known, refused, _title(result)),
             "events": event_marks(result.time[places], stats.event_times, stats.break_times, changing.values()),
             "plots": [name for output in result.outputs for _, name, _ in result._find(output).entries],
         }
@@ -155,9 +168,9 @@ class _Page:
         DeclarationError
             If it has too many variables for any.
         """
-        count = len(self.places)
+        time, events, count = self.result.time[self.places], self.result.stats.event_times, len(self.places)
         while True:
-            own = np.unique(np.round(np.linspace(0, len(self.places) - 1, count)).astype(int))
+            own = _with_events(select_frames(time, count), time, events, count)
             document = self.document(own)
             page, numbers = html(document), _packed(document)
             limit = max(BUDGET - (len(page) - numbers), ROOM)

@@ -19,7 +19,9 @@ VARIABLES, PARAMETERS, PARTS = "variables", "parameters", "parts"
 LISTED = 9  # entries of a structural array up to which they are told
 
 
-def part_tree(tree: Tree, quantities: Mapping[str, tuple[Quantity, Sequence[int]]], title: str) -> dict[str, Any]:
+def part_tree(
+    tree: Tree, quantities: Mapping[str, tuple[Quantity, Sequence[int]]], refused: Mapping[str, str], title: str
+) -> dict[str, Any]:
     """Return the parts that have quantities, nested, as `explorer.model` in page/DOCUMENT.md.
 
     Parameters
@@ -28,6 +30,8 @@ def part_tree(tree: Tree, quantities: Mapping[str, tuple[Quantity, Sequence[int]
         The bound model, whose classes describe the parts; or a catalogue, which has names alone.
     quantities : mapping of str to (Quantity, sequence of int)
         Quantities by path, with the numbers of their `entries`.
+    refused : mapping of str to str
+        Paths that cannot be read, with the reason.
     title : str
         Name of the model.
     """
@@ -39,6 +43,9 @@ def part_tree(tree: Tree, quantities: Mapping[str, tuple[Quantity, Sequence[int]
         own = known[owner].fields.get(name) if owner in known else None
         kind = PARAMETERS if isinstance(own, f.Parameter) else VARIABLES
         _enter(parts, owner, known).setdefault(kind, []).append(_quantity(name, quantity, numbers, own))
+    for path, why in refused.items():
+        owner, _, name = path.rpartition(".")
+        _enter(parts, owner, known).setdefault(VARIABLES, []).append({"name": name, "about": why, "value": "no value"})
     for path, part in parts.items():
         if path in known and (values := _structural(known[path])):
             part.setdefault(PARAMETERS, []).extend(values)

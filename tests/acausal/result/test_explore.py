@@ -12,7 +12,20 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, der, discrete, effect, output, parameter, reinit, structural, variable, when
+from acausal import (
+    Model,
+    Scalar,
+    der,
+    discrete,
+    effect,
+    observed,
+    output,
+    parameter,
+    reinit,
+    structural,
+    variable,
+    when,
+)
 from acausal.result import Result, explored
 from acausal.result.event_marks import BREAK, event_marks
 from models import SCENES
@@ -39,6 +52,15 @@ class Bouncer(Model):
         yield der(self.x) == self.v
         yield der(self.v) == ac.quantity(-9.81, "m/s2")
         yield when(self.x < 0, reinit(self.v, -self.e * self.v), reinit(self.hits, self.hits + 1))
+
+
+class Unreadable(Bouncer):
+    """A quantity of it cannot be formed."""
+
+    @observed
+    def lost(self):
+        """A quantity."""
+        raise ac.DeclarationError("there is no such quantity.")
 
 
 @pytest.fixture(scope="module")
@@ -136,6 +158,18 @@ def test_chosen_variables(explore: Callable[..., Explored], bounced: Result) -> 
     assert columns == {"hits", "v"}
 
 
+def test_what_cannot_be_read_says_why(explore: Callable[..., Explored]) -> None:
+    page = explore(ac.simulate(Unreadable(), stop_time=2.0, intervals=20))
+    assert {"x", "v", "lost"} <= set(page.variables)
+    assert page.variables["lost"] == {"name": "lost", "about": "there is no such quantity.", "value": "no value"}
+
+
+def test_of_constants_alone(explore: Callable[..., Explored], bounced: Result) -> None:
+    page = explore(bounced, variables=["e"])
+    assert len(page.columns) == 0
+    compare(page, bounced)
+
+
 def test_thinned_to_the_budget(
     explore: Callable[..., Explored], bounced: Result, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -147,6 +181,8 @@ def test_thinned_to_the_budget(
     page = explore(bounced)
     assert len(page.text) <= explored.BUDGET
     assert 100 <= len(page.time) < 201
+    after = np.searchsorted(bounced.time, bounced.stats.event_times)
+    assert set(bounced.time[np.concatenate([after - 1, after])]) <= set(page.time)
     assert set(page.variables) == set(whole.variables)
     compare(page, bounced)
 
