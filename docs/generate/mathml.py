@@ -15,7 +15,10 @@ def mathml(latex: str, display: str = "inline") -> str:
     latex = latex.replace("{aligned}", "{align*}")
     # Words stay whole, with their underscores.
     latex = re.sub(r"\\mathrm\{((?:[\w. ]|\\_){2,})\}", lambda word: f"\\text{{{word[1].replace(chr(92), '')}}}", latex)
-    found = convert(latex, display=display)
+    try:
+        found = convert(latex, display=display)
+    except Exception as error:  # latex2mathml has many kinds; in a parallel build they would pass unseen
+        found = f"{type(error).__name__}: \\"
     if "<mi>&</mi>" in found or "\\" in found:
         getLogger(__name__).warning("this formula cannot be typeset: %s", latex)
     return found
