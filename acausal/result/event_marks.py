@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-# Changes told of an event, and marks in a page: more could not be told apart.
-TOLD, MOST = 3, 2000
+# Changes listed for an event, and marks in a page, which are closer than a pixel then.
+LISTED, MOST = 3, 2000
 BREAK = "a law of time changes"
 
 
@@ -35,12 +35,12 @@ def event_marks(
     places = np.clip(
         np.searchsorted(time, instants) - 1, 0, max(len(time) - 2, 0)
     )  # the interval that ends at or after it
-    told = _changes(len(time) - 1, places, variables)
+    changes = _changes(len(time) - 1, places, variables)
     coarse = np.floor((instants - time[0]) / ((time[-1] - time[0]) or 1.0) * MOST)
     shown = np.flatnonzero(np.diff(coarse, prepend=-1))
     alone = np.bincount(places, minlength=1)[places] == 1
     return [
-        {"t": float(instants[k]), "what": (told.get(int(places[k]), "") if alone[k] else "") or marks[instants[k]]}
+        {"t": float(instants[k]), "what": (changes.get(int(places[k]), "") if alone[k] else "") or marks[instants[k]]}
         for k in shown
     ]
 
@@ -59,6 +59,6 @@ def _changes(intervals: int, places: np.ndarray, variables: Iterable[tuple[str, 
                 text = f"{name}: {values[k]:.4g} \u2192 {values[k + 1]:.4g}"
                 found.setdefault(int(k), []).append(text if unit in ("", "1") else f"{text} {unit}")
     return {
-        k: ", ".join([*texts[:TOLD], *([f"and {len(texts) - TOLD} more"] if len(texts) > TOLD else [])])
+        k: ", ".join([*texts[:LISTED], *([f"and {len(texts) - LISTED} more"] if len(texts) > LISTED else [])])
         for k, texts in found.items()
     }

@@ -142,7 +142,7 @@ class _Page:
 
     @classmethod
     def of(cls, result: Any, quantities: Sequence[Quantity], refused: Mapping[str, str], places: np.ndarray) -> _Page:
-        """Evaluate quantities at some times; `refused` tells why others cannot be read."""
+        """Evaluate quantities at some times; `refused` has the reasons why others cannot be read."""
         series, known = Series(len(places)), {}
         changing: dict[int, tuple[str, str, np.ndarray]] = {}
         for quantity, values in _values(result, quantities, places):
@@ -203,7 +203,7 @@ class _Page:
         return document_of(found, title=title) | {"explorer": explorer}
 
     def _note(self, shown: int) -> str:
-        """Tell what the page leaves out, and why the run ended early."""
+        """Return how many times are shown if not all, and why the run ended early."""
         times, stopped = self.result.time, self.result.stats.get("stopped")
         few = f"{shown} of {len(times)} output times are shown." if shown < len(times) else ""
         end = f"The run stopped at {times[-1]:.6g} s: {stopped}" if stopped else ""

@@ -16,7 +16,7 @@ from acausal.result.lookup import Quantity, Tree
 
 # Members of a part in the tree.
 VARIABLES, PARAMETERS, PARTS = "variables", "parameters", "parts"
-LISTED = 9  # entries of a structural array up to which they are told
+LISTED = 9  # entries of the longest structural array that is listed
 
 
 def part_tree(

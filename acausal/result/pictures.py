@@ -74,8 +74,8 @@ class Pictures:
     def explore(self: Any, path: str | Path, *, variables: Sequence[str] | None = None, frames: int = 1000) -> None:
         """Write one page that shows every variable: a tree of the parts, plots, and the moving machine.
 
-        The page needs no network. It is kept below 1.5 MB by fewer times, which it then tells; large meshes may exceed that.
-        Values are exact to 1e-5 of the range of the variable.
+        The page needs no network. To stay below 1.5 MB it may contain fewer times, and says how many; only large meshes exceed
+        that. Values are exact to 1e-5 of the range of the variable.
 
         Parameters
         ----------

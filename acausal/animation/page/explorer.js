@@ -33,7 +33,7 @@ class Selection extends Plots {
     });
     panel.happened = make("div", { className: "happened", hidden: true });
     panel.area.append(panel.happened);
-    panel.area.addEventListener("pointermove", (event) => this.tell(panel, event));
+    panel.area.addEventListener("pointermove", (event) => this.showEvent(panel, event));
     panel.area.addEventListener("pointerleave", () => (panel.happened.hidden = true));
     return panel;
   }
@@ -44,8 +44,8 @@ class Selection extends Plots {
     return EDGE.left + ((t - first) / (last - first || 1)) * (panel.area.clientWidth - EDGE.left - EDGE.right);
   }
 
-  /** Tell what happened at the event under the pointer. */
-  tell(panel, event) {
+  /** Show what changed at the event under the pointer. */
+  showEvent(panel, event) {
     const x = event.clientX - panel.area.getBoundingClientRect().left;
     const near = (one) => Math.abs(this.across(panel, one.t) - x);
     const found = this.events.reduce((best, one) => (!best || near(one) < near(best) ? one : best), null);
@@ -82,6 +82,15 @@ class Selection extends Plots {
 
 const eventText = ({ t, what }) => `${formatNumber(t, 6)} s${what ? `: ${what}` : ""}`;
 
+const TREE_KEYS = [
+  ["\u2191 \u2193 \u2190 \u2192", "in the tree: move, open and close"],
+  ["Enter", "in the tree: open a part, plot a variable or remove it"],
+  ["* ?", "in the filter: any text, any character"],
+];
+
+// Keys that serve a page without a picture.
+const PLAIN_KEYS = ["space", "\u2190 \u2192", "Home End", "+ \u2212", "p", "l", "d", "?"];
+
 class Explorer {
   static async of(viewer, packed) {
     const columns = await Series.of(packed);
@@ -100,6 +109,8 @@ class Explorer {
     this.nodes = new Map([...this.root.all()].filter((node) => node.column !== undefined).map((node) => [node.path, node]));
     this.tree = new Tree($("tree"), this.root, columns, (node) => this.act(node));
     $("note").textContent = content.note;
+    if ($("picture").hidden) for (const row of [...$("keys").rows]) row.hidden = !PLAIN_KEYS.includes(row.cells[0].textContent);
+    $("keys").append(...TREE_KEYS.map(([key, what]) => make("tr", {}, [make("th", { textContent: key, scope: "row" }), make("td", { textContent: what })])));
     $("explorer").hidden = false;
     this.layOut();
     for (const path of this.initial(content.plots)) if (this.nodes.has(path)) this.toggle(this.nodes.get(path), false);
@@ -108,8 +119,8 @@ class Explorer {
 
   /** Variables that are plotted at first: those of the address, else the outputs. */
   initial(outputs) {
-    const asked = new URLSearchParams(location.hash.replace(/^#/, "")).getAll("plot");
-    return asked.length ? asked : outputs;
+    const requested = new URLSearchParams(location.hash.replace(/^#/, "")).getAll("plot");
+    return requested.length ? requested : outputs;
   }
 
   addEvents(events) {

@@ -33,6 +33,11 @@ class Series extends Columns {
     }
   }
 
+  /** Linear, as the plots are drawn: cubics would overshoot where a variable jumps. */
+  between(i, s) {
+    return [0, 1 - s, s, 0];
+  }
+
   /** Number of a variable among the columns; constants are numbered by complements. */
   column(number) {
     return number >= 0 ? number : this.varying + ~number;

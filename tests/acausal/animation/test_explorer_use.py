@@ -127,6 +127,11 @@ def test_a_click_plots_and_another_one_removes(open_explorer: Show, results: dic
     press(browser, ".legend button")  # a curve is removed in its plot, too
     assert browser.run(PLOTS) == [["ball.r[2]"], ["ball.v"]]
     assert not browser.run(f"document.querySelector('{row('ball.x')}').ariaSelected === 'true'")
+    press(browser, row("ball.hits"))
+    browser.run("acausal.seek(0.445)")  # just before the first rebound: a cubic would undershoot
+    browser.run(PAINTED)
+    assert browser.run(f"document.querySelector('{row('ball.hits')} .value').textContent") == "0"
+    press(browser, row("ball.hits"))
     browser.run("acausal.seek(0.2)")
     browser.run(PAINTED)
     value = results["Bounce"]["ball.v"][20]
