@@ -42,8 +42,9 @@ def arguments(entry: Entry) -> str:
 
 def equations(entry: Entry) -> Any:
     """Return the equations that the class of a component states."""
-    names = {"ac": ac, "ca": ca, "cls": entry.cls, "rod": rod}
-    part = eval(f"cls({arguments(entry)})", names)
+    given = arguments(entry)
+    names = {"ac": ac, "ca": ca, "cls": entry.cls, **({"body": rod()} if given == "reduced=body" else {})}
+    part = eval(f"cls({given})", names)
     model = type(entry.cls.__name__, (Alone,), {"it": part})
     return written_equations(collect_statements(model(), {}), "it")
 

@@ -78,11 +78,20 @@ def _example(entry: Entry, name: str) -> str:
     more = [
         line for word, line in (("ac.", "import acausal as ac\n"), ("ca.", "import casadi as ca\n")) if word in given
     ]
-    variable = "part" if name[0].isdigit() else "it"
-    return (
-        f"```python\n{''.join(more)}from components{package and '.' + package} import {name}\n\n"
-        f"{variable} = {name}({given})\n```"
-    )
+    code = f"{''.join(more)}from components{package and '.' + package} import {name}\n\nit = {name}({given})"
+    return f"```python\n{code}\n```\n\n{_connection(entry)}"
+
+
+def _connection(entry: Entry) -> str:
+    """Return how a model connects a component, "" where its ports do not tell."""
+    ports = [port for port, kind in entry.ports.items() if not kind.endswith("optional")]
+    if {*getattr(entry.cls, "ends", ())} <= {*ports} and hasattr(entry.cls, "ends"):
+        statement = "chain(self.before, self.it, self.after)"
+    elif ports:
+        statement = f"connect(self.it.{ports[0]}, self.other.{'y' if ports[0] == 'u' else ports[0]})"
+    else:
+        return ""
+    return f"In `connections()`: `yield {statement}`."
 
 
 def _equations(entry: Entry) -> str:

@@ -24,7 +24,7 @@ ARGUMENTS = {
     "electrical.TableCurrent": "data=ac.Table([0, 1, 2], [0, 1, 0])",
     "electrical.TableVoltage": "data=ac.Table([0, 1, 2], [0, 1, 0])",
     "blocks.DiscreteStateSpace": "A=[[0.9]], B=[[0.1]], C=[[1]], D=[[0]]",
-    "fe.FEBody": "reduced=rod()",
+    "fe.FEBody": "reduced=body",
     "blocks.Sampled": "f=lambda time, u: 2 * u, period=0.01",
 }
 ORDINARY = {(): "1", (3,): "(1, 0, 0)"}
