@@ -28,7 +28,7 @@ PACKAGES = {
     "thermal": ("Heat", "Capacities, conductors and prescribed temperatures."),
     "blocks": ("Blocks", "Signals: sources, transfer functions, controllers, logic and tables."),
 }
-OTHER = {"u": "y", "y": "u", "frames": "frame_a"}  # what a port is connected to, if not its like
+OTHER = {"u": "y", "y": "u"}  # what a port is connected to, if not its like
 LONG = 1500  # characters of an equation above which a page leaves it out
 UNCONNECTED = "is not connected"  # in the origin of a flow that is 0 because the component stands alone
 MOST = 40  # equations on a page
@@ -85,7 +85,9 @@ def _example(entry: Entry, name: str) -> str:
 
 def _connection(entry: Entry) -> str:
     """Return how a model connects a component, "" where its ports do not tell."""
-    ports = [port for port, kind in entry.ports.items() if not kind.endswith("optional")]
+    ports = [
+        port for port, kind in entry.ports.items() if not kind.endswith("optional") and not kind.startswith("dict")
+    ]
     ends = {*getattr(entry.cls, "ends", ())}
     if len(ends) == 2 and ends <= {*ports}:
         statement = "chain(self.before, self.it, self.after)"
