@@ -11,7 +11,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parent))
 
 project = "acausal"
-author = "the authors of acausal"
+author = copyright = "the authors of acausal"
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",

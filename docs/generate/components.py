@@ -17,7 +17,7 @@ from generate.used import scenes_with
 
 PACKAGES = {
     "": ("Machines in space", "Worlds, joints, bodies, beams, forces and wheels: frames at their ends."),
-    "assemblies": ("Assemblies", "Joints and rods as one part, whose loops are solved in closed form."),
+    "assemblies": ("Assemblies", "Joints and rods as one part, for loops."),
     "constraints": ("Constraints", "Joints that close a loop without coordinates of their own."),
     "contact": ("Contacts", "Points, spheres and rims on planes, on uneven ground and on each other, with friction."),
     "sensors": ("Sensors", "Positions, velocities, angles, forces and powers of frames."),

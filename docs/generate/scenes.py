@@ -78,7 +78,7 @@ class Scene(SphinxDirective):
                 f'<p><a class="explore" href="../explore/{name}.html">Explore the result: moving picture and plots</a></p>\n',
                 f"    acausal simulate {scene}{given} --explore {name}.html\n",
                 table(("output", "meaning"), outputs) + "\n" if outputs else "",
-                f"<details><summary>models/{Path(inspect.getfile(cls)).name}</summary>\n\n```python\n{source}\n```\n\n</details>",
+                f"<details><summary>{cls.__module__.replace('.', '/')}.py</summary>\n\n```python\n{source}\n```\n\n</details>",
             )
         )
 
