@@ -26,7 +26,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted(p for p in (ROOT / "docs").rglob("*.md") if p.parent.name != "components")]
 MARKS = ("not run", "slow", "warns")
 MARK = re.compile(r"<!-- (.*): \S.* -->\n+\Z")
-FENCED = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
+FENCED = re.compile(r"^```([\w{}-]*).*?\n(.*?)^```$", re.M | re.S)
 INDENTED = re.compile(r"(?<=\n\n)(?:    .*\n|\n(?=    ))+")
 SETTING = re.compile(r"\w+=\S+")  # of an environment variable, before a command
 COMMAND = {"acausal": [sys.executable, "-m", "acausal"], "python": [sys.executable]}
@@ -58,7 +58,8 @@ def blocks(page: Path) -> Iterator[Block]:
     """Return the blocks of a page, fenced ones first."""
     text = page.read_text()
     for match in FENCED.finditer(text):
-        yield _block(page, text, match.start(), match[1], match[2])
+        if not match[1].startswith("{"):  # a directive
+            yield _block(page, text, match.start(), match[1], match[2])
     rest = FENCED.sub(lambda match: "\n" * match[0].count("\n"), text)
     for match in INDENTED.finditer(rest):
         if re.match(r" +(?:\w+=\S+ )*(?:acausal|python|gmsh) ", match[0]):

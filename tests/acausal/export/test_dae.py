@@ -119,7 +119,8 @@ def test_scenes_simulate_identically(scene, tmp_path):
     same_runs(own, loaded)
     reports = [{k: plain(v) for k, v in m.report.items() if k != "seconds"} for m in (own, loaded)]
     assert reports[0] == reports[1]
-    assert plain(own.summary()).partition("seconds")[0] == loaded.summary().partition("seconds")[0]
+    texts = [text.partition("seconds")[0].split() for text in (plain(own.summary()), loaded.summary())]
+    assert texts[0] == texts[1]  # lines break elsewhere beside the names of folders
     if own.report["stays_zero"]:  # parts of the linear system that a loaded model has only if the file has them
         own = ac.compile(SCENES[scene](), full=True)
         loaded = saved(own, tmp_path / "full.dae")
