@@ -39,6 +39,8 @@ nitpicky = False
 def escape(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     """Escape characters of formulas in a docstring that reStructuredText would read as markup."""
     for k, line in enumerate(lines):
+        if line.lstrip().startswith((">>>", "...")):
+            continue
         code = line.split("`")
         lines[k] = "`".join(part if n % 2 else re.sub(r"([|*])", r"\\\1", part) for n, part in enumerate(code))
 

@@ -16,16 +16,19 @@ from components import fe
 from components.table import Entry
 from generate.examples import ARGUMENTS, ORDINARY
 
+MOST = 6  # frames of a component
+
 
 class Alone(ac.Model):
-    """A component with its frames at the world."""
+    """A component with a free body at each of its frames, so that their motions are independent."""
 
     world = components.World()
+    bodies = ac.parts(lambda self: [components.Body(m=1) for _ in range(MOST)])
 
     def connections(self) -> Any:
         """Connect the frames of the component."""
-        frames = (port for port in vars(self.it).values() if isinstance(port, components.Frame))
-        yield from (ac.connect(self.world.frame_b, frame) for frame in frames)
+        frames = [port for port in vars(self.it).values() if isinstance(port, components.Frame)]
+        yield from (ac.connect(body.frame_a, frame) for body, frame in zip(self.bodies, frames, strict=False))
 
 
 def arguments(entry: Entry) -> str:
@@ -45,7 +48,8 @@ def equations(entry: Entry) -> Any:
     given = arguments(entry)
     names = {"ac": ac, "ca": ca, "cls": entry.cls, **({"body": rod()} if given == "reduced=body" else {})}
     part = eval(f"cls({given})", names)
-    model = type(entry.cls.__name__, (Alone,), {"it": part})
+    own = {"world": None} if entry.cls is components.World else {}
+    model = type(entry.cls.__name__, (Alone,), {"it": part} | own)
     return written_equations(collect_statements(model(), {}), "it")
 
 

@@ -35,7 +35,7 @@ def written_equations(raw: CollectedStatements, part: str) -> EquationList:
     }
     placed: dict[str, list[int]] = {}
     for k, origin in enumerate(raw.equations.origins):
-        if is_within(origin.path, part):
+        if is_within(origin.path, part) and not raw.equations.sides[k][0].is_empty():
             placed.setdefault(origin.path, []).append(k)
     found, shared = [], dict[Any, Any]()
     for path, numbers in placed.items():
