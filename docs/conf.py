@@ -33,7 +33,6 @@ exclude_patterns = ["generate", "_generated/extra"]
 default_role = "code"
 autodoc_typehints = "none"
 napoleon_google_docstring = False
-nitpicky = False
 
 
 def escape(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
