@@ -6,12 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from acausal.animation.frames import FRAMES
-from acausal.errors import DeclarationError
 from acausal.language.call_arguments import checked_arguments
-from acausal.language.value_checks import shown
 from acausal.locks import exclusive
 from acausal.result.animated import AnimationOptions, write
 from acausal.result.lookup import Key
+from acausal.result.named_results import checked_results
 from acausal.result.result import Result
 
 
@@ -75,27 +74,3 @@ def animate(
         path,
         AnimationOptions(frames, plots, values, title, deformation, trails, size, view, fps),
     )
-
-
-def checked_results(results: Mapping[str, Result], alone: str) -> dict[str, Result]:
-    """Return results by name.
-
-    Parameters
-    ----------
-    results : mapping of str to Result
-        The argument of a function that compares results.
-    alone : str
-        What to do with one result, for the message.
-
-    Raises
-    ------
-    DeclarationError
-        If it is not such a mapping.
-    """
-    if isinstance(results, Result):
-        raise DeclarationError(f'{alone}, several with a dictionary, {{"rigid": a, "elastic": b}}.')
-    if not isinstance(results, Mapping) or not results or not all(isinstance(r, Result) for r in results.values()):
-        raise DeclarationError(
-            f'results is a dictionary of results by name, {{"rigid": a, "elastic": b}}, not {shown(results)}.'
-        )
-    return {str(name): result for name, result in results.items()}

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from acausal.errors import DeclarationError
 from acausal.language.call_arguments import checked_arguments
 from acausal.locks import exclusive
-from acausal.result.animate_many import checked_results
 from acausal.result.lookup import Key
+from acausal.result.named_results import checked_results
 from acausal.result.plots import Curve, curves, draw, finish
 from acausal.result.result import Result
 
