@@ -40,12 +40,9 @@ class AnimationOptions:
 
     def check(self, path: str | Path) -> None:
         """Raise DeclarationError for invalid options, and for those that the kind of file does not have."""
-        if not _whole(self.frames) or self.frames < 2:
-            raise DeclarationError(f"frames is a whole number, 2 or more, not {code(self.frames)}.")
+        check_frames(self.frames)
         for name, example in (("plots", "crank.phi"), ("values", "bending moment"), ("trails", "rod.frame_b")):
-            given = getattr(self, name)
-            if isinstance(given, str) or not isinstance(given, Sequence):
-                raise DeclarationError(f'{name} is a list, such as ["{example}"], not {code(given)}.')
+            check_list(name, getattr(self, name), example)
         number = not isinstance(self.deformation, bool) and isinstance(self.deformation, int | float | np.number)
         if not number or not 1 <= self.deformation <= EXAGGERATED:
             raise DeclarationError(f"deformation is a number from 1 to {EXAGGERATED}, not {code(self.deformation)}.")
@@ -78,6 +75,18 @@ class AnimationOptions:
 def ending(path: str | Path) -> str:
     """Return the suffix of a name in lower case."""
     return Path(path).suffix.lower()
+
+
+def check_frames(frames: Any) -> None:
+    """Raise DeclarationError if a number of frames is invalid."""
+    if not _whole(frames) or frames < 2:
+        raise DeclarationError(f"frames is a whole number, 2 or more, not {code(frames)}.")
+
+
+def check_list(name: str, given: Any, example: str) -> None:
+    """Raise DeclarationError if an argument is not a list."""
+    if isinstance(given, str) or not isinstance(given, Sequence):
+        raise DeclarationError(f'{name} is a list, such as ["{example}"], not {code(given)}.')
 
 
 def _whole(value: Any) -> bool:

@@ -20,8 +20,8 @@ from acausal.animation.series import Series
 from acausal.errors import DeclarationError, ExportError
 from acausal.language.component import Component
 from acausal.language.pending import reading
-from acausal.language.value_checks import shown as code
 from acausal.result.animated import PAGES, at_places
+from acausal.result.animation_options import check_frames, check_list
 from acausal.result.event_marks import event_marks
 from acausal.result.files import check_writable, shown_name, whole
 from acausal.result.lookup import Key, Quantity, Tree, match
@@ -54,7 +54,9 @@ class _Names:
 def write(result: Any, path: str | Path, variables: Sequence[str] | None, frames: int) -> None:
     """Write the explorer of a result; raises the errors of `Result.explore`."""
     check_explorer(path)
-    check_options(variables, frames)
+    check_frames(frames)
+    if variables is not None:
+        check_list("variables", variables, "crank.*")
     if not result.time.size:
         raise DeclarationError(f"{result!r} is empty: there is no time at which something could be seen.")
     known = _Names(result)
@@ -92,14 +94,6 @@ def check_explorer(path: str | Path) -> None:
             f"cannot write {shown_name(path)}: the name of an explorer ends in .html, a page for any browser."
         )
     check_writable(path)
-
-
-def check_options(variables: Sequence[str] | None, frames: int) -> None:
-    """Raise DeclarationError for invalid options."""
-    if isinstance(frames, bool) or not isinstance(frames, int | np.integer) or frames < 2:
-        raise DeclarationError(f"frames is a whole number, 2 or more, not {code(frames)}.")
-    if isinstance(variables, str) or not isinstance(variables, Sequence | None):
-        raise DeclarationError(f'variables is a list, such as ["crank.*"], not {code(variables)}.')
 
 
 def check_shapes(tree: Tree) -> None:
